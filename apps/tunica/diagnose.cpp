@@ -14,6 +14,7 @@
 
 #include "answer.hpp"
 #include "batch.hpp"
+#include "budget/output/outputs.hpp"
 #include "calibration/examination.hpp"
 #include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
@@ -24,6 +25,7 @@
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
+#include "experiment/tolerance_text.hpp"
 #include "finite_range.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
@@ -45,6 +47,7 @@ struct DiagnoseOptions {
   std::optional<std::uint64_t> seed;
   std::optional<double> alpha;
   std::vector<std::string> mechanisms, groups;
+  std::string tolerance;
   bool quick = false, batch = false, no_discovery = false;
 };
 
@@ -56,6 +59,7 @@ diagnosis::Request request_of(const experiment::Experiment& experiment, const Se
   if (options.alpha) request.alpha = *options.alpha;
   request.quick = options.quick;
   if (!options.groups.empty()) request.groups = options.groups;
+  if (!options.tolerance.empty()) request.tolerance = {{"", experiment::tolerance_text(options.tolerance, "--tolerance")}};
   std::vector<std::string> known;
   for (const auto& [id, entry] : session.catalogue().mechanisms()) known.push_back(id);
   for (const std::string& id : options.mechanisms) {
@@ -112,11 +116,13 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   const auto page = report::write_report(directory.path());
   text::StyledText words = diagnosis::summary(found.diagnosis);
   if (found.discovered()) words += discovery::term_summary(*found.search);
+  if (found.budget && found.diagnosis.analysis.alarm.raised)
+    words += budget::summary(*found.budget, found.diagnosis.request.model);
   answer("{}\nReport:   {}\nResults:  {}\n", words.shown_on(answer_descriptor()), page.string(),
          (directory.path() / "result.json").string());
   if (found.diagnosis.explanation.mended)
     answer("Try:      tunica diagnose {}\n", (directory.path() / "mended.json").string());
-  if (found.diagnosis.explanation.claim.best || found.discovered())
+  if (std::filesystem::exists(directory.path() / "extended.json"))
     answer("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
   return done;
 }
@@ -152,6 +158,9 @@ void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("--alpha", options->alpha, "Share of false alarms that is accepted, instead of the file's")
       ->check(FiniteRange(0.0001, 0.5))
       ->type_name("A");
+  verb->add_option("--tolerance", options->tolerance,
+                   "What is not worth caring about, as \"2 %\" of the range, instead of the file's")
+      ->type_name("SHARE");
   verb->add_option("--mechanisms", options->mechanisms, "Only these causes, names separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "budget/output/outputs.hpp"
 #include "diagnosis/output/outputs.hpp"
 #include "discovery/output/outputs.hpp"
 #include "execution/files.hpp"
@@ -15,7 +16,7 @@ namespace tunica::app {
 
 DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const diagnosis::Request& request,
                              const plugins::Catalogue& catalogue, bool discovers, const diagnosis::Progress& progress) {
-  // The search has the last twentieth of the way.
+  // What follows the diagnosis has the last twentieth of the way.
   constexpr double before_search = 0.95;
   const diagnosis::Progress first = [&](const std::string& stage, double share) {
     if (progress && (!discovers || share < 1)) progress(stage, discovers ? std::min(share, before_search) : share);
@@ -24,10 +25,11 @@ DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const dia
     if (progress && share < 1) progress(stage, before_search + (1 - before_search) * share);
   };
   DiagnosisAndSearch found{diagnosis::diagnose(experiment, request, catalogue, first), {}};
-  if (!discovers) return found;
-  found.search = discovery::after(found.diagnosis, experiment, catalogue, last);
-  if (progress) progress("done", 1);
+  if (discovers) found.search = discovery::after(found.diagnosis, experiment, catalogue, last);
   if (found.search) found.diagnosis = discovery::with_verdict_of(*found.search, std::move(found.diagnosis));
+  found.budget = budget::budget_of(found.diagnosis, found.search ? &*found.search : nullptr, experiment, catalogue, last);
+  found.diagnosis = budget::with_verdict_of(*found.budget, experiment, catalogue, std::move(found.diagnosis));
+  if (progress) progress("done", 1);
   return found;
 }
 
@@ -39,6 +41,7 @@ void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndS
   if (found.search) more["discovery"] = discovery::discovery_json(*found.search);
   // The terms take the place of a mechanism that leaves more than noise.
   if (found.discovered()) extended = discovery::extended_experiment(*found.search, catalogue);
+  if (extended.empty() && found.leads()) extended = budget::extended_experiment(*found.budget, found.diagnosis, catalogue);
   if (extended.empty()) extended = diagnosis::extended_experiment(found.diagnosis, catalogue);
   if (!extended.empty()) execution::write_atomically(directory / "extended.json", extended);
   for (const auto& [name, text] : diagnosis::mended_files(found.diagnosis, directory, catalogue))
@@ -46,8 +49,15 @@ void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndS
   diagnosis::write_tables(directory, found.diagnosis);
   if (found.discovered())
     execution::write_atomically(directory / "residuals.csv", discovery::residual_table(*found.search));
+  if (found.leads() && found.budget->fitted)
+    execution::write_atomically(
+        directory / "residuals.csv",
+        diagnosis::residual_table(found.diagnosis.analysis.evidence, &found.budget->fitted->extension->assembly(),
+                                  &found.budget->fitted->fit, {}));
+  nlohmann::ordered_json of_diagnosis = nlohmann::ordered_json::object();
+  if (found.budget) of_diagnosis["budget"] = budget::budget_json(*found.budget);
   execution::write_atomically(directory / "result.json",
-                              diagnosis::result_document(found.diagnosis, experiment, catalogue, more));
+                              diagnosis::result_document(found.diagnosis, experiment, catalogue, more, of_diagnosis));
 }
 
 }  // namespace tunica::app

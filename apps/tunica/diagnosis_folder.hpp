@@ -4,19 +4,20 @@
 #include <filesystem>
 #include <optional>
 
+#include "budget/budget.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "discovery/after_diagnosis.hpp"
 
 namespace tunica::app {
 
-/// A diagnosis, and the search for terms that followed it.
+/// A diagnosis, the search for terms that followed it, and what takes how much of the misfit.
 struct DiagnosisAndSearch {
   diagnosis::Diagnosis diagnosis;
   std::optional<discovery::Discovery> search;
+  std::optional<budget::Budget> budget = {};
 
-  [[nodiscard]] bool discovered() const {
-    return search && search->judgement.verdict == diagnosis::Verdict::discovered;
-  }
+  [[nodiscard]] bool discovered() const { return diagnosis.explanation.verdict == diagnosis::Verdict::discovered; }
+  [[nodiscard]] bool leads() const { return diagnosis.explanation.verdict == diagnosis::Verdict::leading; }
 };
 
 /// The whole of `tunica diagnose`; `discovers` decides whether terms are searched where the cause is unknown.

@@ -145,6 +145,8 @@ struct DiagnosisEntry {
   std::optional<bool> admissibility;            ///< whether lost stability changes the verdict
   std::vector<std::string> groups;              ///< of causes to consider; empty = all
   std::optional<double> wrong_files;            ///< share of files that are expected to say what is not so
+  /// What is not worth caring about: observable (empty = all) and "2 %" of its range, or a quantity in its unit.
+  std::vector<std::pair<std::string, std::string>> tolerance = {};
 };
 
 /// Where causes may lie, as "diagnosis" names it.

@@ -7,6 +7,7 @@
 #include "experiment/limits.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
+#include "experiment/tolerance_text.hpp"
 
 namespace tunica::experiment {
 namespace {
@@ -237,10 +238,45 @@ double read_wrong_files(const Node& node) {
   return share;
 }
 
+/// A share of the range for all observables, or for each a share or a quantity in its unit.
+std::vector<std::pair<std::string, std::string>> read_tolerance(const Node& node, const Experiment& experiment,
+                                                                const plugins::Catalogue& catalogue) {
+  constexpr const char* expected = "a share of the range, as \"2 %\"";
+  const auto share = [](const Node& one) {
+    const std::string text = one.text(expected);
+    try {
+      return tolerance_text(text, "\"tolerance\"");
+    } catch (const InputError&) {
+      one.fail(fmt::format("'{}' is no tolerance", text),
+               "Give a share of the range above 0 and up to 50 %, as \"2 %\".");
+    }
+  };
+  if (node.is_text()) return {{"", share(node)}};
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const auto& [observable, one] : node.members(expected)) {
+    const std::string text = one.text(expected);
+    if (text.ends_with('%')) {
+      all.emplace_back(observable, share(one));
+      continue;
+    }
+    std::string unit;
+    for (const TestEntry& test : experiment.tests)
+      for (const Observable& known : catalogue.tests().at(test.type).factory.observables)
+        if (known.name == observable) unit = known.unit;
+    if (unit.empty())
+      one.fail(fmt::format("no test of the file has the observable '{}'", observable),
+               "Name one that the tests have, or give one share of the range for all.");
+    if (!(one.quantity(unit, "a quantity with a unit, or a share of the range as \"2 %\"") > 0))
+      one.fail("a tolerance is above 0", "Give a share of the range, as \"2 %\", or a quantity with a unit.");
+    all.emplace_back(observable, text);
+  }
+  return all;
+}
+
 }  // namespace
 
 DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue) {
-  node.allow_only({"model", "optimizer", "alpha", "mechanisms", "admissibility", "groups", "wrong_files"},
+  node.allow_only({"model", "optimizer", "alpha", "mechanisms", "admissibility", "groups", "wrong_files", "tolerance"},
                   "\"diagnosis\"");
   DiagnosisEntry diagnosis;
   if (const auto child = node.find("model")) diagnosis.model = child->one_of(entry_names(experiment.models), "model");
@@ -250,6 +286,7 @@ DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, co
   if (const auto child = node.find("alpha")) diagnosis.alpha = read_alpha(*child);
   if (const auto child = node.find("groups")) diagnosis.groups = read_groups(*child);
   if (const auto child = node.find("wrong_files")) diagnosis.wrong_files = read_wrong_files(*child);
+  if (const auto child = node.find("tolerance")) diagnosis.tolerance = read_tolerance(*child, experiment, catalogue);
   const auto child = node.find("mechanisms");
   if (!child) return diagnosis;
   if (child->is_text()) {

@@ -233,7 +233,14 @@ Json diagnosis_schema() {
         {{"description", "Share of files that are expected to say what is not so (default 0.1)."},
          {"type", "number"},
          {"minimum", 0.0001},
-         {"maximum", 0.9}}}});
+         {"maximum", 0.9}}},
+       {"tolerance",
+        {{"description",
+          "The misfit that is not worth caring about (default: the scatter between repeats, else 2 % of the range)."},
+         {"anyOf", Json::array({text_schema("A share of the range, as \"2 %\"."),
+                                {{"description", "By observable: a share, or a quantity in its unit."},
+                                 {"type", "object"},
+                                 {"additionalProperties", {{"type", "string"}}}}})}}}});
 }
 
 Json discovery_schema() {

@@ -247,6 +247,8 @@ Json to_json(const DiagnosisEntry& diagnosis) {
   if (diagnosis.admissibility) json["admissibility"] = *diagnosis.admissibility;
   if (!diagnosis.groups.empty()) json["groups"] = diagnosis.groups;
   if (diagnosis.wrong_files) json["wrong_files"] = *diagnosis.wrong_files;
+  for (const auto& [observable, text] : diagnosis.tolerance)
+    (observable.empty() ? json["tolerance"] : json["tolerance"][observable]) = text;
   return json;
 }
 
