@@ -9,6 +9,9 @@
 /// What the charts of a diagnosis share.
 namespace tunica::report {
 
+/// The waterfall of the budget, and what it is made of.
+void add_budget(Page& page, const Folder& folder);
+
 /// " in tube, pressure, row 4"; "" for what acts on the model.
 std::string place_words(const Json& target);
 

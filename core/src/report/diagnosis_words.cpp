@@ -49,6 +49,10 @@ std::string verdict_words(const Json& diagnosis) {
                        text::joined(words(list(diagnosis, said))),
                        unlisted ? ", or it is an effect that the catalogue does not list: " + reasons : "");
   }
+  if (verdict == "leading") {
+    const std::vector<std::string> all = words(list(diagnosis, "reasons"));
+    return text::capitalised(all.empty() ? "one cause leads" : all.front(), {}) + '.';
+  }
   if (verdict == "discovered") {
     const Json& all = list(diagnosis, "reasons");
     return fmt::format("Discovered: {}. No mechanism of the catalogue explains it.",

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "report/diagnosis_pieces.hpp"
+#include "text/units.hpp"
+
+namespace tunica::report {
+
+namespace {
+
+std::string of_range(double rms) { return fmt::format("{:.2g} %", 100 * rms); }
+
+/// "+ viscoelasticity", "+ a second viscoelasticity".
+std::string step_label(const Json& steps, std::size_t which) {
+  const std::string id = word(steps[which], "id");
+  std::size_t before = 0;
+  for (std::size_t k = 0; k < which; ++k) before += word(steps[k], "id") == id ? 1 : 0;
+  return fmt::format("+ {}{}{}", before == 0 ? "" : before == 1 ? "a second " : "one more ", id,
+                     place_words(member(steps[which], "target")));
+}
+
+/// What is left after each step, from the misfit of the base down to the tolerance.
+Chart waterfall(const Json& budget) {
+  Chart chart;
+  chart.kind = "rows";
+  chart.bars = true;
+  chart.id = "budget";
+  chart.title = "What takes how much of the misfit";
+  chart.about = "Root mean square of the misfit beyond noise after each cause, as a share of the measured range";
+  chart.note = "Each row has all causes above it. All parameters are fitted again at each step.";
+  chart.x = {"misfit [% of the range]", false, {0}, {}};
+  chart.rule(100 * number(budget, "tolerance"), "tolerance", 'x');
+  chart.files = {"result.json"};
+  RowSeries left{"misfit", 0, {}};
+  const auto add = [&](const std::string& label, const Json& of, const std::string& more) {
+    const double rms = 100 * number(of, "rms");
+    chart.labels.push_back(label);
+    chart.x.include.push_back(rms);
+    left.rows.push_back({rms, 0, rms,
+                         fmt::format("{} of the range, at most {}{}", of_range(number(of, "rms")),
+                                     of_range(number(of, "rms_upper")), more)});
+  };
+  add("model as given", budget, "");
+  const Json& steps = list(budget, "steps");
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    add(step_label(steps, k), steps[k],
+        fmt::format("; {:.0f} % of the misfit taken, its own part {:.0f} %", 100 * number(steps[k], "share"),
+                    100 * number(steps[k], "shapley")));
+  chart.rows = {std::move(left)};
+  return chart;
+}
+
+void add_channels(Page& page, const Json& budget) {
+  const Json &before = list(budget, "channels"), &after = list(budget, "rest");
+  if (before.size() != after.size() || before.empty()) return;
+  std::vector<std::vector<Cell>> rows;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const double range = number(before[k], "range");
+    const std::string unit = word(before[k], "unit");
+    rows.push_back({{word(before[k], "test")},
+                    {word(before[k], "channel")},
+                    {amount(number(before[k], "rms"), unit), true},
+                    {of_range(number(before[k], "rms") / range), true},
+                    {amount(number(after[k], "rms"), unit), true},
+                    {of_range(number(after[k], "rms") / range), true},
+                    {of_range(number(after[k], "rms_upper") / range), true}});
+  }
+  page.html("<details><summary>By test and observable</summary>");
+  page.html(table_html({"test", "observable", "misfit as given", "of its range", "left", "of its range", "at most"}, rows));
+  page.html("</details>\n");
+}
+
+/// Every cause as the only one, the largest share first.
+void add_alone(Page& page, const Json& budget) {
+  constexpr std::size_t shown = 8;
+  std::vector<std::vector<Cell>> rows;
+  for (const Json& one : list(budget, "alone")) {
+    if (rows.size() >= shown) break;
+    const std::string belief = word(one, "belief");
+    rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
+                    {word(one, "group")},
+                    {fmt::format("{:.0f} %", 100 * number(one, "share")), true},
+                    {of_range(number(one, "rms")), true},
+                    {belief == "plausible" ? "yes" : belief == "flagged" ? "somewhat beyond" : "no"}});
+  }
+  if (rows.empty()) return;
+  page.heading("Each cause alone");
+  page.html(table_html({"cause", "in", "takes of the misfit", "leaves, of the range", "amplitude plausible"}, rows));
+}
+
+}  // namespace
+
+void add_budget(Page& page, const Folder& folder) {
+  const Json& budget = member(member(folder.result(), "diagnosis"), "budget");
+  if (!budget.is_object() || list(budget, "steps").empty()) return;
+  page.section("Budget of the misfit");
+  page.chart(waterfall(budget), folder.address());
+  add_channels(page, budget);
+  add_alone(page, budget);
+}
+
+}  // namespace tunica::report
