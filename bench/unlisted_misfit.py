@@ -81,8 +81,7 @@ def write(base: str, length: float, number: int, seed: int, out: pathlib.Path) -
 
 def leads(d: typing.Dict[str, typing.Any]) -> typing.List[str]:
     if d.get("verdict") == "leading":
-        words = d["reasons"][0].removeprefix("mainly ")
-        return [words.split(": it takes")[0].split(" in the ")[0]]
+        return [d["budget"]["lead"]["acts_like"]]
     if d.get("verdict") == "indistinguishable":
         return d["ambiguity_set"]
     if d.get("verdict") == "named":

@@ -21,7 +21,7 @@ HERE = pathlib.Path(__file__).parent
 
 def without_noise(experiment):
     """The experiment with its stated noise taken out."""
-    for test in experiment["tests"]:
+    for test in experiment["tests"].values():
         test.get("data", {}).pop("noise", None)
         test.pop("noise", None)
     experiment.pop("noise", None)
@@ -39,7 +39,7 @@ def absolute_paths(node, folder):
 
 def matches(said, leads):
     """Whether a cause "I2 (linear)", "fibre diagonal (exponential)" or "viscoelasticity" is one of those."""
-    return any(said == lead or said.startswith(lead + " ") for lead in leads)
+    return any(one == lead or one.startswith(lead + " ") for lead in leads for one in said.split(" / "))
 
 
 def answer(result):
@@ -50,12 +50,12 @@ def answer(result):
     if verdict in ("named", "suspect_data"):
         return [mechanism["type"] for mechanism in diagnosis.get("extension", {}).get("mechanisms", [])]
     if verdict == "leading":
-        return [diagnosis["reasons"][0].removeprefix("mainly ").split(" in the ")[0].split(":")[0]]
+        return [f'{budget["lead"]["id"]} / {budget["lead"]["acts_like"]}']
     if verdict == "indistinguishable":
         return diagnosis["ambiguity_set"]
     if verdict == "discovered":
         return [f'{term["invariant"]} {term.get("family") or ""}'.strip() for term in result["discovery"]["terms"]]
-    return [] if budget is not None else []
+    return []
 
 
 def judged(verdict, said, leads):
@@ -104,7 +104,8 @@ def main():
         if not file.exists():
             print(f"| {name} | – | {file} is not there | skipped | |")
             continue
-        experiment = absolute_paths(json.loads(file.read_text()), file.parent.resolve())
+        lines = [line for line in file.read_text().splitlines() if not line.lstrip().startswith("//")]
+        experiment = absolute_paths(json.loads("\n".join(lines)), file.parent.resolve())
         with tempfile.TemporaryDirectory() as folder:
             result, words = diagnosed(options.program, without_noise(experiment) if bare else experiment,
                                       not options.full, pathlib.Path(folder))

@@ -53,44 +53,51 @@ const std::vector<double>* stretch_along(const MeasuredChannel& view, const std:
   return nullptr;
 }
 
-std::optional<Difference> in_sheet(const MeasuredChannel& around, const MeasuredChannel& along, double tolerance) {
-  const auto *first = stretch_along(around, "circumferential"), *second = stretch_along(around, "axial");
-  std::optional<Difference> worst;
-  if (first == nullptr || second == nullptr || around.count != along.count) return worst;
-  const double range = std::max(range_of(around), range_of(along));
-  const std::vector<double> a = diagnosis::row_deviations(around), b = diagnosis::row_deviations(along);
-  if (a.empty() || b.empty()) return worst;
-  const double sigma =
-      std::hypot(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
-  for (std::size_t row = 0; row < around.count; ++row) {
-    const double u = (*first)[row], v = (*second)[row];
-    if (!around.fitted[row] || !along.fitted[row] || std::abs(u - v) > same_stretch * std::abs(u - 1)) continue;
-    keep(worst, {(u + v) / 2, around.measured[row], along.measured[row]}, sigma, range, tolerance);
-  }
-  return worst;
-}
+/// A measured curve: its rows by rising stretch.
+using Points = std::vector<std::pair<double, double>>;
 
-/// Measured value at a stretch on a rising curve, between neighbouring rows; none outside.
-std::optional<double> at(const MeasuredChannel& view, double stretch) {
-  for (std::size_t row = 1; row < view.count; ++row) {
-    const double a = view.abscissa[row - 1], b = view.abscissa[row];
-    if (!(b > a) || stretch < a || stretch > b || !view.fitted[row] || !view.fitted[row - 1]) continue;
-    return view.measured[row - 1] + (view.measured[row] - view.measured[row - 1]) * (stretch - a) / (b - a);
+/// The value at a stretch on a rising curve, between neighbouring points; none outside.
+std::optional<double> at(const Points& points, double stretch) {
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const auto& [a, low] = points[k - 1];
+    const auto& [b, high] = points[k];
+    if (b > a && stretch >= a && stretch <= b) return low + (high - low) * (stretch - a) / (b - a);
   }
   return std::nullopt;
 }
 
-std::optional<Difference> of_strips(const MeasuredChannel& around, const MeasuredChannel& along, double tolerance) {
+/// The largest difference between two curves at equal stretches. Rows of one direction may lie between those of the
+/// other.
+std::optional<Difference> difference(const MeasuredChannel& around, const Points& first, const MeasuredChannel& along,
+                                     const Points& second, double tolerance) {
   std::optional<Difference> worst;
   const double range = std::max(range_of(around), range_of(along));
   const std::vector<double> a = diagnosis::row_deviations(around), b = diagnosis::row_deviations(along);
   if (a.empty() || b.empty()) return worst;
-  const double sigma =
-      std::hypot(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
-  for (std::size_t row = 0; row < around.count; ++row)
-    if (const auto other = at(along, around.abscissa[row]); other && around.fitted[row])
-      keep(worst, {around.abscissa[row], around.measured[row], *other}, sigma, range, tolerance);
+  const double sigma = std::hypot(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
+  for (const auto& [stretch, value] : first)
+    if (const auto other = at(second, stretch)) keep(worst, {stretch, value, *other}, sigma, range, tolerance);
   return worst;
+}
+
+/// Of a sheet: the fitted rows in which both stretches are the same.
+Points equally_stretched(const MeasuredChannel& view) {
+  const auto *first = stretch_along(view, "circumferential"), *second = stretch_along(view, "axial");
+  Points points;
+  if (first == nullptr || second == nullptr) return points;
+  for (std::size_t row = 0; row < view.count; ++row)
+    if (const double u = (*first)[row], v = (*second)[row];
+        view.fitted[row] && std::abs(u - v) <= same_stretch * std::abs(u - 1))
+      points.emplace_back(u, view.measured[row]);
+  return points;
+}
+
+/// Of a strip: its fitted rows.
+Points pulled(const MeasuredChannel& view) {
+  Points points;
+  for (std::size_t row = 0; row < view.count; ++row)
+    if (view.fitted[row]) points.emplace_back(view.abscissa[row], view.measured[row]);
+  return points;
 }
 
 }  // namespace
@@ -115,10 +122,10 @@ std::string anisotropy_words(const diagnosis::Evidence& evidence, double toleran
     for (const MeasuredChannel& along : channels) {
       if (around.test == along.test && direction_in(around.observable) == "circumferential" &&
           direction_in(along.observable) == "axial")
-        consider(in_sheet(around, along, tolerance), fmt::format("in the test '{}'", around.test), around.unit);
+        consider(difference(around, equally_stretched(around), along, equally_stretched(along), tolerance), fmt::format("in the test '{}'", around.test), around.unit);
       if (around.test != along.test && around.observable == along.observable &&
           strip_direction(around) == "circumferential" && strip_direction(along) == "axial")
-        consider(of_strips(around, along, tolerance),
+        consider(difference(around, pulled(around), along, pulled(along), tolerance),
                  fmt::format("in the tests '{}' and '{}'", around.test, along.test), around.unit);
     }
   if (!worst) return "";

@@ -32,6 +32,7 @@ struct Budget {
   std::vector<Contender> contenders;  ///< largest share first; empty where the causes leave noise
   double unlisted_probability = 0;    ///< of "no listed cause, only a smooth misfit"; of meaning with contenders
   bool rough = false;                 ///< what is left is rougher than an unlisted misfit may be: no name is given
+  std::optional<Contender> lead;      ///< with_verdict_of() sets it where one cause leads
   bool adequate = false;              ///< the bound of the rest is within the tolerance
   std::string anisotropy;                   ///< what the data say of directions that the base lacks; empty: nothing
   std::vector<std::string> not_looked_for;  ///< mechanisms that could be the cause, and why nobody tried them
@@ -48,7 +49,7 @@ Budget budget_of(const diagnosis::Diagnosis& diagnosis, const discovery::Discove
 
 /// The diagnosis with the verdict that the budget allows where its causes leave more than noise: `leading`,
 /// `indistinguishable`, or `unknown` with what is the case.
-diagnosis::Diagnosis with_verdict_of(const Budget& budget, const experiment::Experiment& experiment,
+diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experiment& experiment,
                                      const plugins::Catalogue& catalogue, diagnosis::Diagnosis diagnosis);
 
 }  // namespace tunica::budget

@@ -26,6 +26,7 @@ constexpr std::size_t most_entrants = 18;      ///< that are fitted
 constexpr std::size_t laws_of_an_invariant = 3;
 constexpr std::array<unsigned, 3> degrees{6, 10, 14};
 constexpr double as_rough_as_noise = 1.5;      ///< of |r|²/ν
+constexpr double unbelieved = 20;              ///< odds against an amplitude that nobody would believe
 constexpr double rough_share = 0.15;           ///< of the misfit
 const double of_uniform = 1 / std::sqrt(2 * std::numbers::pi);
 
@@ -84,13 +85,13 @@ std::optional<Apart> apart(const diagnosis::Evidence& evidence, const std::strin
 /// Like which invariant of a term it looks what a mechanism, or a power of the stretches, does to the energy; its own
 /// sort where it looks like none.
 void sort_by_form(const diagnosis::Evidence& evidence, std::vector<Entrant>& entrants) {
-  constexpr double alike = 0.9;
+  constexpr double alike = 0.9, as_much = 0.15;  // as_much: of the misfit
   const auto change = [&](const Entrant& one) -> Eigen::VectorXd { return evidence.fit.residuals - one.residuals; };
   for (Entrant& one : entrants) {
     if (!one.in_the_energy || (one.term && !one.powers())) continue;
     double best = alike;
     for (const Entrant& term : entrants) {
-      if (!term.term || term.powers()) continue;
+      if (!term.term || term.powers() || std::abs(term.share - one.share) > as_much) continue;
       const Eigen::VectorXd a = change(one), b = change(term);
       const double c = a.dot(b) / std::max(a.norm() * b.norm(), 1e-300);
       if (c > best) {
@@ -277,7 +278,7 @@ Entrants entrants_of(Field& field) {
     entrant.belief = belief_of(field, *mixture, 0);
     entrant.residuals = mixture->fit.residuals;
     entrant.columns = columns_of(field, *mixture);
-    entrant.log_prior = chosen[k]->log_prior;
+    entrant.log_prior = chosen[k]->log_prior - (entrant.belief == Belief::beyond ? std::log(unbelieved) : 0);
     entrant.mixture = std::move(mixture);
     fitted[k] = std::move(entrant);
   });

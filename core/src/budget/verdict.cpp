@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -37,6 +38,25 @@ double probability_of(const std::vector<const Contender*>& some) {
   return sum;
 }
 
+/// Where no cause takes half by itself, one may take it beside others: by its own part in the steps.
+Decision leading_by_steps(const Budget& budget, Decision decision) {
+  if (budget.unlisted_probability > 1 - sure_enough) return decision;
+  std::map<std::string, double> parts;
+  for (const Step& step : budget.steps)
+    parts[step.id] += step.belief == Belief::beyond ? 0 : step.shapley;
+  std::vector<std::pair<double, std::string>> ranking{{0, ""}, {0, ""}};
+  for (const auto& [id, part] : parts) ranking.emplace_back(part, id);
+  std::sort(ranking.rbegin(), ranking.rend());
+  if (ranking[0].first < most_of_it || ranking[0].first < ranking[1].first + ahead) return decision;
+  for (const Contender& one : budget.contenders)
+    if (one.id == ranking[0].second && one.belief != Belief::beyond) {
+      decision.verdict = Verdict::leading;
+      decision.first = {&one};
+      return decision;
+    }
+  return decision;
+}
+
 Decision decided(const Budget& budget) {
   Decision decision;
   const Contender* top = nullptr;
@@ -56,7 +76,8 @@ Decision decided(const Budget& budget) {
   }
   const auto others = std::exchange(decision.first, {});
   if (!others.empty()) decision.next = others.front();
-  if (top->share < most_of_it || probability_of(ties) < sure_enough) return decision;
+  if (top->share < most_of_it) return leading_by_steps(budget, std::move(decision));
+  if (probability_of(ties) < sure_enough) return decision;
   // A cause that lets one test have a material of its own takes what any other takes there: it is named where nothing
   // that is listed does so.
   if (std::any_of(ties.begin(), ties.end(), [](const Contender* one) { return one->id != "another_state"; }))
@@ -95,7 +116,9 @@ std::string leading_words(const Budget& budget, const Decision& decision) {
   std::vector<std::string> forms;
   for (std::size_t k = 1; k < decision.first.size() && forms.size() < 3; ++k)
     forms.push_back(fmt::format("{} {}", decision.first[k]->id, percent(decision.first[k]->share)));
-  std::string text = fmt::format("mainly {}{}: it takes {} of the misfit", first.id, place_of(first.place),
+  const bool acts_like = first.in_the_energy && !first.id.starts_with(first.sort);
+  const std::string like = acts_like ? fmt::format(" (acts like {} here)", first.sort) : "";
+  std::string text = fmt::format("mainly {}{}{}: it takes {} of the misfit", first.id, like, place_of(first.place),
                                  percent(share_of(budget, first)));
   if (first.belief == Belief::flagged) text += ", with an amplitude somewhat beyond what is plausible";
   if (!forms.empty()) text += fmt::format("; its form is open ({} alone)", fmt::join(forms, ", "));
@@ -170,7 +193,7 @@ bool only_mechanisms(const Mixture& mixture) {
 
 }  // namespace
 
-diagnosis::Diagnosis with_verdict_of(const Budget& budget, const experiment::Experiment& experiment,
+diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experiment& experiment,
                                      const plugins::Catalogue& catalogue, diagnosis::Diagnosis d) {
   if (budget.contenders.empty()) return d;
   const Decision decision = decided(budget);
@@ -197,6 +220,7 @@ diagnosis::Diagnosis with_verdict_of(const Budget& budget, const experiment::Exp
                : fmt::format("{}: {}", id, found->second.factory.isolated_by);
   };
   if (decision.verdict == Verdict::leading) {
+    budget.lead = *decision.first.front();
     explanation.reasons = {{ReasonKind::leads, leading_words(budget, decision)}};
     if (budget.fitted && only_mechanisms(*budget.fitted)) {
       claim(inquiry, d.analysis, budget, *budget.fitted, explanation);

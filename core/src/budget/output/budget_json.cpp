@@ -60,6 +60,11 @@ json budget_json(const Budget& budget) {
                  {"channels", channels_json(budget.base_channels)},
                  {"rest", channels_json(budget.rest_channels)}};
   if (budget.contenders.empty()) return result;
+  if (budget.lead)
+    result["lead"] = {{"id", budget.lead->id},
+                      {"acts_like", budget.lead->sort},
+                      {"target", diagnosis::place_json(budget.lead->place)},
+                      {"group", diagnosis::code_of(budget.lead->group)}};
   result["alone"] = std::move(contenders);
   result["unlisted_probability"] = budget.unlisted_probability;
   result["rough"] = budget.rough;
