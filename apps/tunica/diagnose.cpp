@@ -59,7 +59,8 @@ diagnosis::Request request_of(const experiment::Experiment& experiment, const Se
   if (options.alpha) request.alpha = *options.alpha;
   request.quick = options.quick;
   if (!options.groups.empty()) request.groups = options.groups;
-  if (!options.tolerance.empty()) request.tolerance = {{"", experiment::tolerance_text(options.tolerance, "--tolerance")}};
+  if (!options.tolerance.empty())
+    request.tolerance = {{"", experiment::tolerance_text(options.tolerance, "--tolerance")}};
   std::vector<std::string> known;
   for (const auto& [id, entry] : session.catalogue().mechanisms()) known.push_back(id);
   for (const std::string& id : options.mechanisms) {

@@ -27,7 +27,8 @@ DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const dia
   DiagnosisAndSearch found{diagnosis::diagnose(experiment, request, catalogue, first), {}};
   if (discovers) found.search = discovery::after(found.diagnosis, experiment, catalogue, last);
   if (found.search) found.diagnosis = discovery::with_verdict_of(*found.search, std::move(found.diagnosis));
-  found.budget = budget::budget_of(found.diagnosis, found.search ? &*found.search : nullptr, experiment, catalogue, last);
+  found.budget =
+      budget::budget_of(found.diagnosis, found.search ? &*found.search : nullptr, experiment, catalogue, last);
   found.diagnosis = budget::with_verdict_of(*found.budget, experiment, catalogue, std::move(found.diagnosis));
   if (progress) progress("done", 1);
   return found;
@@ -41,7 +42,8 @@ void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndS
   if (found.search) more["discovery"] = discovery::discovery_json(*found.search);
   // The terms take the place of a mechanism that leaves more than noise.
   if (found.discovered()) extended = discovery::extended_experiment(*found.search, catalogue);
-  if (extended.empty() && found.leads()) extended = budget::extended_experiment(*found.budget, found.diagnosis, catalogue);
+  if (extended.empty() && found.leads())
+    extended = budget::extended_experiment(*found.budget, found.diagnosis, catalogue);
   if (extended.empty()) extended = diagnosis::extended_experiment(found.diagnosis, catalogue);
   if (!extended.empty()) execution::write_atomically(directory / "extended.json", extended);
   for (const auto& [name, text] : diagnosis::mended_files(found.diagnosis, directory, catalogue))

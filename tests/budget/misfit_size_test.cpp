@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // How large a misfit is, against figures that can be worked out by hand.
+#include "budget/misfit_size.hpp"
+
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "budget/misfit_size.hpp"
 #include "diagnosis/hand_made.hpp"
 
 namespace tunica::budget {
@@ -55,8 +56,8 @@ TEST(MisfitSize, HasFewerDegreesOfFreedomForEachParameterThatIsFree) {
   EXPECT_THAT(MisfitSize(bed.evidence).squares(fit), DoubleNear(80 - 16, 1e-12));
 }
 
-// A noncentral χ²₂₀ stays below 36 with 5 % where its noncentrality is 36.814: from the sum of central ones that Poisson
-// weighs, summed in another program.
+// A noncentral χ²₂₀ stays below 36 with 5 % where its noncentrality is 36.814: from the sum of central ones that
+// Poisson weighs, summed in another program.
 TEST(MisfitSize, IsBoundedByTheNoncentralityThatStaysBelowWithFivePerCent) {
   TwoCurves bed;
   const Size size = MisfitSize(bed.evidence).of(bed.with(0, std::sqrt(3.6)));

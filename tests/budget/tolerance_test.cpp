@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "budget/tolerance.hpp"
+
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "budget/tolerance.hpp"
 #include "diagnosis/hand_made.hpp"
 #include "tunica/error.hpp"
 

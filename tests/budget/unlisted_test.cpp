@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The evidence beside an unlisted misfit, against the same integrals written out with dense matrices.
+#include "budget/unlisted.hpp"
+
 #include <array>
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "budget/unlisted.hpp"
 #include "diagnosis/evidence/smooth_columns.hpp"
 #include "diagnosis/hand_made.hpp"
 
@@ -27,7 +28,8 @@ struct Curve : diagnosis::HandMade {
   }
 };
 
-/// ln N(r; 0, I + τ²BDBᵀ + c QQᵀ + AAᵀ) as c grows, without what does not depend on the hypothesis; summed over τ and D.
+/// ln N(r; 0, I + τ²BDBᵀ + c QQᵀ + AAᵀ) as c grows, without what does not depend on the hypothesis; summed over τ and
+/// D.
 double dense(const Curve& bed, const Eigen::VectorXd& r, const Eigen::MatrixXd& base, const Eigen::MatrixXd& added) {
   const auto shapes = diagnosis::smooth_shapes(bed.evidence.curves, r.size(), 6);
   const Eigen::MatrixXd B = shapes.columns * (12 / 0.2);
@@ -64,7 +66,8 @@ TEST(UnlistedMisfit, HasTheEvidenceOfTheIntegralsWrittenOut) {
   base << Eigen::VectorXd::Ones(24), 4 * u;
   added << 5 * (u.array() * 2).exp().matrix();
   const UnlistedMisfit unlisted(bed.evidence, 6);
-  EXPECT_THAT(unlisted.log_evidence(r, base, Eigen::MatrixXd(24, 0)), DoubleNear(dense(bed, r, base, Eigen::MatrixXd::Zero(24, 1)), 1e-8));
+  EXPECT_THAT(unlisted.log_evidence(r, base, Eigen::MatrixXd(24, 0)),
+              DoubleNear(dense(bed, r, base, Eigen::MatrixXd::Zero(24, 1)), 1e-8));
   EXPECT_THAT(unlisted.log_evidence(r, base, added), DoubleNear(dense(bed, r, base, added), 1e-8));
 }
 

@@ -122,7 +122,8 @@ std::string anisotropy_words(const diagnosis::Evidence& evidence, double toleran
     for (const MeasuredChannel& along : channels) {
       if (around.test == along.test && direction_in(around.observable) == "circumferential" &&
           direction_in(along.observable) == "axial")
-        consider(difference(around, equally_stretched(around), along, equally_stretched(along), tolerance), fmt::format("in the test '{}'", around.test), around.unit);
+        consider(difference(around, equally_stretched(around), along, equally_stretched(along), tolerance),
+                 fmt::format("in the test '{}'", around.test), around.unit);
       if (around.test != along.test && around.observable == along.observable &&
           strip_direction(around) == "circumferential" && strip_direction(along) == "axial")
         consider(difference(around, pulled(around), along, pulled(along), tolerance),
@@ -130,7 +131,8 @@ std::string anisotropy_words(const diagnosis::Evidence& evidence, double toleran
     }
   if (!worst) return "";
   return fmt::format(
-      "two directions answer differently: at stretch {:.3g} in both, {:.3g} and {:.3g}{} along the circumference and the "
+      "two directions answer differently: at stretch {:.3g} in both, {:.3g} and {:.3g}{} along the circumference and "
+      "the "
       "axis, {}; the base has no directions",
       worst->stretch, worst->one, worst->other, text::unit_suffix(unit), where);
 }

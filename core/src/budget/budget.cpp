@@ -114,8 +114,8 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
   budget.rough = entrants.rough;
   budget.unlisted_probability = entrants.unlisted_probability;
   for (const Entrant& one : entrants.all)
-    budget.contenders.push_back(
-        {one.id, one.sort, one.place, one.group, one.term, one.in_the_energy, one.share, one.probability, one.rest, one.belief});
+    budget.contenders.push_back({one.id, one.sort, one.place, one.group, one.term, one.in_the_energy, one.share,
+                                 one.probability, one.rest, one.belief});
   budget.not_looked_for = not_looked_for(analysis);
   if (subject && diagnosis::is_isotropic(analysis.evidence.base->models().model(0)))
     budget.anisotropy = anisotropy_words(analysis.evidence, budget.tolerance.share);

@@ -34,7 +34,7 @@ struct Budget {
   bool rough = false;                 ///< what is left is rougher than an unlisted misfit may be: no name is given
   std::optional<Contender> lead;      ///< with_verdict_of() sets it where one cause leads
   bool adequate = false;              ///< the bound of the rest is within the tolerance
-  std::string anisotropy;                   ///< what the data say of directions that the base lacks; empty: nothing
+  std::string anisotropy;             ///< what the data say of directions that the base lacks; empty: nothing
   std::vector<std::string> not_looked_for;  ///< mechanisms that could be the cause, and why nobody tried them
   std::shared_ptr<const Mixture> fitted;    ///< all steps; null where there are none
 

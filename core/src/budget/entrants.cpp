@@ -22,12 +22,12 @@ namespace {
 
 using diagnosis::Variable;
 
-constexpr std::size_t most_entrants = 18;      ///< that are fitted
+constexpr std::size_t most_entrants = 18;  ///< that are fitted
 constexpr std::size_t laws_of_an_invariant = 3;
 constexpr std::array<unsigned, 3> degrees{6, 10, 14};
-constexpr double as_rough_as_noise = 1.5;      ///< of |r|²/ν
-constexpr double unbelieved = 20;              ///< odds against an amplitude that nobody would believe
-constexpr double rough_share = 0.15;           ///< of the misfit
+constexpr double as_rough_as_noise = 1.5;  ///< of |r|²/ν
+constexpr double unbelieved = 20;          ///< odds against an amplitude that nobody would believe
+constexpr double rough_share = 0.15;       ///< of the misfit
 const double of_uniform = 1 / std::sqrt(2 * std::numbers::pi);
 
 /// √Σ(y/σ)²: how many standard deviations all that was measured comes to.
@@ -192,8 +192,7 @@ std::vector<const Lead*> promising(const Field& field, const Mixture& mixture, s
 
 Columns columns_of(const Field& field, const Mixture& mixture) {
   const diagnosis::Evidence& evidence = field.analysis.evidence;
-  if (!mixture.extension)
-    return {diagnosis::interior(mixture.fit), Eigen::MatrixXd(mixture.fit.residuals.size(), 0)};
+  if (!mixture.extension) return {diagnosis::interior(mixture.fit), Eigen::MatrixXd(mixture.fit.residuals.size(), 0)};
   const auto variables = mixture.extension->variables();
   const auto& parameters = mixture.extension->assembly().layout().parameters;
   const double of_amplitude = std::log(measured_in_sigmas(evidence));
@@ -323,8 +322,7 @@ Entrants entrants_of(Field& field) {
   }
   tbb::parallel_for(std::size_t{0}, found.all.size(), [&](std::size_t k) {
     Entrant& one = found.all[k];
-    one.log_evidence =
-        field.unlisted->log_evidence(one.residuals, one.columns.base, one.columns.added) + one.log_prior;
+    one.log_evidence = field.unlisted->log_evidence(one.residuals, one.columns.base, one.columns.added) + one.log_prior;
   });
   // No listed cause is as likely before the data as all of them.
   std::vector<double> logs{log_evidence(field, base)};

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "budget/mixture.hpp"
 #include "budget/misfit_size.hpp"
+#include "budget/mixture.hpp"
 #include "budget/unlisted.hpp"
 
 namespace tunica::budget {
@@ -44,8 +44,8 @@ Belief belief_of(const Field& field, const Mixture& mixture, std::size_t member)
 
 /// One cause as the only explanation.
 struct Entrant {
-  std::string id;     ///< of the mechanism, "another_state", or "I2 (linear)"
-  std::string sort;   ///< of what is the same but for its form: the invariant of a term and of what acts like it; or id
+  std::string id;    ///< of the mechanism, "another_state", or "I2 (linear)"
+  std::string sort;  ///< of what is the same but for its form: the invariant of a term and of what acts like it; or id
   diagnosis::Place place;
   diagnosis::CauseGroup group = diagnosis::CauseGroup::material;
   bool term = false, in_the_energy = false;

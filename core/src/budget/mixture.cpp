@@ -36,9 +36,7 @@ std::vector<Variable> variables_of(const Mixture& mixture, const diagnosis::Anal
 
 }  // namespace
 
-std::string Member::words() const {
-  return term ? discovery::words_of({term}) : mechanism->id;
-}
+std::string Member::words() const { return term ? discovery::words_of({term}) : mechanism->id; }
 
 Mixture Mixer::base() const {
   Mixture mixture;

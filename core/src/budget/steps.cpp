@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t most_steps = 4;
 constexpr std::size_t quick_leads = 6, full_leads = 12;  ///< that are fitted at each step
 constexpr std::size_t laws_at_a_step = 2;
-constexpr std::size_t in_exchange = 3;                   ///< leads that each member makes room for
-constexpr double worth_a_step = 0.01;                    ///< of the misfit
-constexpr double worth_an_exchange = 1;                  ///< of ln p
+constexpr std::size_t in_exchange = 3;   ///< leads that each member makes room for
+constexpr double worth_a_step = 0.01;    ///< of the misfit
+constexpr double worth_an_exchange = 1;  ///< of ln p
 
 struct Weighed {
   Mixture mixture;

@@ -29,8 +29,7 @@ UnlistedMisfit::UnlistedMisfit(const diagnosis::Evidence& evidence, unsigned deg
   const diagnosis::SmoothShapes shapes = diagnosis::smooth_shapes(evidence.curves, rows, degree);
   columns_ = shapes.columns;
   const Eigen::VectorXd ratios = MisfitSize(evidence).ranges_over_sigma();
-  for (Eigen::Index k = 0; k < columns_.cols(); ++k)
-    columns_.col(k) = columns_.col(k).cwiseProduct(ratios) / noise;
+  for (Eigen::Index k = 0; k < columns_.cols(); ++k) columns_.col(k) = columns_.col(k).cwiseProduct(ratios) / noise;
   basis_ = diagnosis::basis(columns_, 1e-8);
   const Eigen::MatrixXd squares = columns_.transpose() * columns_;
   std::vector<double> logs;

@@ -42,8 +42,7 @@ double probability_of(const std::vector<const Contender*>& some) {
 Decision leading_by_steps(const Budget& budget, Decision decision) {
   if (budget.unlisted_probability > 1 - sure_enough) return decision;
   std::map<std::string, double> parts;
-  for (const Step& step : budget.steps)
-    parts[step.id] += step.belief == Belief::beyond ? 0 : step.shapley;
+  for (const Step& step : budget.steps) parts[step.id] += step.belief == Belief::beyond ? 0 : step.shapley;
   std::vector<std::pair<double, std::string>> ranking{{0, ""}, {0, ""}};
   for (const auto& [id, part] : parts) ranking.emplace_back(part, id);
   std::sort(ranking.rbegin(), ranking.rend());
@@ -59,6 +58,8 @@ Decision leading_by_steps(const Budget& budget, Decision decision) {
 
 Decision decided(const Budget& budget) {
   Decision decision;
+  // A misfit within the tolerance has no step that is worth taking.
+  if (budget.steps.empty()) return decision;
   const Contender* top = nullptr;
   for (const Contender& one : budget.contenders)
     if (one.belief != Belief::beyond && (top == nullptr || one.share > top->share)) top = &one;
@@ -244,10 +245,9 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
     if (std::string text = isolating(one->id); !text.empty()) how.push_back(std::move(text));
   }
   if (!how.empty())
-    d.prospects.next =
-        diagnosis::NextExperiment{fmt::format("To tell them apart, a test that switches one of them alone: {}.",
-                                              fmt::join(how, "; ")),
-                                  explanation.claim.ambiguity_set, std::nullopt};
+    d.prospects.next = diagnosis::NextExperiment{
+        fmt::format("To tell them apart, a test that switches one of them alone: {}.", fmt::join(how, "; ")),
+        explanation.claim.ambiguity_set, std::nullopt};
   return d;
 }
 

@@ -23,7 +23,7 @@ struct Request {
   bool admissibility = false;           ///< lost stability changes the verdict
   /// What is not worth caring about: observable (empty = all) and "2 %" of its range, or a quantity in its unit.
   std::vector<std::pair<std::string, std::string>> tolerance = {};
-  bool quick = false;                   ///< linear bootstrap only, refits of the likeliest causes only
+  bool quick = false;  ///< linear bootstrap only, refits of the likeliest causes only
   std::uint64_t seed = 1;
   std::vector<std::string> groups = {"material", "rig", "file"};  ///< where causes may lie
   double wrong_files = 0.1;  ///< share of files that are expected to say what is not so

@@ -15,8 +15,8 @@ std::string tolerance_text(const std::string& text, std::string_view where) {
   } catch (const InputError&) {  // said below, with the place
   }
   if (share > 0 && share <= 0.5) return text;
-  throw InputError(fmt::format("{}: '{}' is no tolerance. Give a share of the range above 0 and up to 50 %, as \"2 %\".",
-                               where, text));
+  throw InputError(fmt::format(
+      "{}: '{}' is no tolerance. Give a share of the range above 0 and up to 50 %, as \"2 %\".", where, text));
 }
 
 }  // namespace tunica::experiment

@@ -18,8 +18,11 @@ std::string step_label(const Json& steps, std::size_t which) {
   const std::string id = word(steps[which], "id");
   std::size_t before = 0;
   for (std::size_t k = 0; k < which; ++k) before += word(steps[k], "id") == id ? 1 : 0;
-  return fmt::format("+ {}{}{}", before == 0 ? "" : before == 1 ? "a second " : "one more ", id,
-                     place_words(member(steps[which], "target")));
+  return fmt::format("+ {}{}{}",
+                     before == 0   ? ""
+                     : before == 1 ? "a second "
+                                   : "one more ",
+                     id, place_words(member(steps[which], "target")));
 }
 
 /// What is left after each step, from the misfit of the base down to the tolerance.
@@ -69,7 +72,8 @@ void add_channels(Page& page, const Json& budget) {
                     {of_range(number(after[k], "rms_upper") / range), true}});
   }
   page.html("<details><summary>By test and observable</summary>");
-  page.html(table_html({"test", "observable", "misfit as given", "of its range", "left", "of its range", "at most"}, rows));
+  page.html(
+      table_html({"test", "observable", "misfit as given", "of its range", "left", "of its range", "at most"}, rows));
   page.html("</details>\n");
 }
 
@@ -84,7 +88,9 @@ void add_alone(Page& page, const Json& budget) {
                     {word(one, "group")},
                     {fmt::format("{:.0f} %", 100 * number(one, "share")), true},
                     {of_range(number(one, "rms")), true},
-                    {belief == "plausible" ? "yes" : belief == "flagged" ? "somewhat beyond" : "no"}});
+                    {belief == "plausible" ? "yes"
+                     : belief == "flagged" ? "somewhat beyond"
+                                           : "no"}});
   }
   if (rows.empty()) return;
   page.heading("Each cause alone");

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "seal.hpp"
@@ -100,10 +101,11 @@ Cause read_cause(const Json& from) {
 
 Verdict read_verdict(const Json& from) {
   Verdict verdict{.verdict = from.at("verdict"), .causes = {}, .ambiguity_set = {}, .confusable = {}, .held_out = {}};
-  const std::vector<std::string> known{"nothing_detected", "named", "indistinguishable", "unknown", "suspect_data"};
+  const std::vector<std::string> known{"nothing_detected", "named",        "indistinguishable",
+                                       "unknown",          "suspect_data", "leading"};
   if (std::find(known.begin(), known.end(), verdict.verdict) == known.end())
-    throw InputError(fmt::format("found the verdict '{}', expected one of {}, {}, {}, {}, {}", verdict.verdict,
-                                 known[0], known[1], known[2], known[3], known[4]));
+    throw InputError(
+        fmt::format("found the verdict '{}', expected one of {}", verdict.verdict, fmt::join(known, ", ")));
   for (const Json& one : part(from, "causes")) verdict.causes.push_back(read_cause(one));
   for (const Json& one : part(from, "ambiguity_set")) verdict.ambiguity_set.push_back(one);
   for (const Json& one : part(from, "alternatives")) verdict.alternatives.push_back(one);

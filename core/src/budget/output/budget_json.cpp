@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "budget/output/outputs.hpp"
-#include "diagnosis/output/outputs.hpp"
 #include "diagnosis/output/fitted_experiment.hpp"
+#include "diagnosis/output/outputs.hpp"
 #include "experiment/reader.hpp"
 
 namespace tunica::budget {
@@ -77,9 +77,8 @@ std::string extended_experiment(const Budget& budget, const diagnosis::Diagnosis
   if (!budget.fitted) return {};
   experiment::Experiment experiment = budget.fitted->extension->experiment();
   return experiment::write_input(
-      diagnosis::fitted_experiment(std::move(experiment), d.analysis.evidence.run,
-                                   budget.fitted->extension->assembly(), budget.fitted->fit.free, d.request.optimizer,
-                                   catalogue),
+      diagnosis::fitted_experiment(std::move(experiment), d.analysis.evidence.run, budget.fitted->extension->assembly(),
+                                   budget.fitted->fit.free, d.request.optimizer, catalogue),
       catalogue);
 }
 

@@ -67,8 +67,8 @@ text::StyledText summary(const Budget& budget, const std::string& base) {
   if (!budget.rest_channels.empty()) lines += text::hanging("Left:     ", channel_words(budget.rest_channels)) + '\n';
   std::vector<std::string> others;
   for (const Contender& one : budget.contenders) {
-    const bool step = std::any_of(budget.steps.begin(), budget.steps.end(),
-                                  [&](const Step& own) { return own.id == one.id; });
+    const bool step =
+        std::any_of(budget.steps.begin(), budget.steps.end(), [&](const Step& own) { return own.id == one.id; });
     if (step || one.share < 0.1 || others.size() >= 3) continue;
     others.push_back(fmt::format("{}{} {}{}", one.id, one.place.tests.empty() ? "" : " " + one.place.words(),
                                  percent(one.share), one.belief == Belief::beyond ? " (beyond belief)" : ""));
