@@ -51,7 +51,7 @@ void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndS
   diagnosis::write_tables(directory, found.diagnosis);
   if (found.discovered())
     execution::write_atomically(directory / "residuals.csv", discovery::residual_table(*found.search));
-  if (found.leads() && found.budget->fitted)
+  if (found.leads() && found.budget->fitted && !found.diagnosis.explanation.claim.best)
     execution::write_atomically(
         directory / "residuals.csv",
         diagnosis::residual_table(found.diagnosis.analysis.evidence, &found.budget->fitted->extension->assembly(),

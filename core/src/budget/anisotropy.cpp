@@ -71,6 +71,7 @@ std::optional<double> at(const Points& points, double stretch) {
 std::optional<Difference> difference(const MeasuredChannel& around, const Points& first, const MeasuredChannel& along,
                                      const Points& second, double tolerance) {
   std::optional<Difference> worst;
+  if (first.empty() || second.empty()) return worst;
   const double range = std::max(range_of(around), range_of(along));
   const std::vector<double> a = diagnosis::row_deviations(around), b = diagnosis::row_deviations(along);
   if (a.empty() || b.empty()) return worst;

@@ -50,21 +50,6 @@ std::vector<discovery::KindPointer> kinds_for(const diagnosis::Diagnosis& d, con
       fitter, discovery::kinds_of(request, discovery::reached_states(subject, evidence.fit.free), directions));
 }
 
-/// The causes of the verdict, in the order of its claim.
-std::optional<Mixture> claimed(const Field& field, const diagnosis::Explanation& explanation) {
-  if (!explanation.claim.best) return std::nullopt;
-  Mixture mixture = field.mixer.base();
-  for (const diagnosis::Addition& addition : explanation.claim.best->additions)
-    for (const Lead& lead : field.leads) {
-      if (!lead.member.mechanism || lead.member.mechanism->id != addition.id ||
-          !(lead.member.mechanism->place == addition.place) || lead.member.mechanism->setting != addition.setting)
-        continue;
-      if (auto more = field.mixer.grown(mixture, lead)) mixture = std::move(*more);
-      break;
-    }
-  return mixture.members.empty() ? std::nullopt : std::optional(std::move(mixture));
-}
-
 std::vector<std::string> not_looked_for(const diagnosis::Analysis& analysis) {
   std::vector<std::string> ids;
   for (const diagnosis::Candidate& one : analysis.hypotheses.candidates)
@@ -102,11 +87,16 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
   const bool settled = is_settled(d, search);
   std::vector<discovery::KindPointer> kinds;
   if (subject && !settled) kinds = kinds_for(d, *subject);
-  Field field{inquiry, analysis, mixer, size, leads_of(analysis, subject ? &*subject : nullptr, kinds)};
+  Field field{inquiry,
+              analysis,
+              mixer,
+              size,
+              leads_of(analysis, subject ? &*subject : nullptr, kinds),
+              d.explanation.claim.rivals};
   if (settled) {
-    auto fitted = claimed(field, d.explanation);
-    if (!fitted) return finish(std::nullopt);
-    budget.steps = steps_of(field, *fitted);
+    if (!d.explanation.claim.best) return finish(std::nullopt);
+    Mixture fitted = mixer.mixture_of(*d.explanation.claim.best);
+    budget.steps = steps_of(field, fitted);
     return finish(std::move(fitted));
   }
   inquiry.report("what takes how much", 0.96);

@@ -34,6 +34,7 @@ const double of_uniform = 1 / std::sqrt(2 * std::numbers::pi);
 double measured_in_sigmas(const diagnosis::Evidence& evidence) {
   double sum = 0;
   for (const auto& view : evidence.base->layout().channels) {
+    if (std::none_of(view.fitted.begin(), view.fitted.end(), [](bool fitted) { return fitted; })) continue;
     const std::vector<double> sigma = diagnosis::row_deviations(view);
     std::size_t k = 0;
     for (std::size_t row = 0; row < view.count; ++row)
@@ -258,6 +259,10 @@ Entrants entrants_of(Field& field) {
   tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t k) {
     auto mixture = field.mixer.grown(base, *chosen[k]);
     if (!mixture) return;
+    for (const diagnosis::Refit& refit : field.known)
+      if (refit.additions.size() == 1 && refit.additions.front().id == chosen[k]->member.key() &&
+          refit.fit.chi2 < mixture->fit.chi2 && refit.fit.jacobian.cols() == mixture->fit.jacobian.cols())
+        mixture = field.mixer.mixture_of(refit);
     Entrant entrant;
     const Member& member = mixture->members.front();
     entrant.id = entrant.sort = member.words();

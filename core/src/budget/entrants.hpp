@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct Field {
   const Mixer& mixer;
   const MisfitSize& size;
   std::vector<Lead> leads;
+  std::span<const diagnosis::Refit> known = {};         ///< fits of the diagnosis, which searched more
   std::shared_ptr<const UnlistedMisfit> unlisted = {};  ///< entrants_of() makes it
 };
 

@@ -45,6 +45,21 @@ Mixture Mixer::base() const {
   return mixture;
 }
 
+Mixture Mixer::mixture_of(const diagnosis::Refit& refit) const {
+  Mixture mixture;
+  mixture.extension = refit.extension;
+  mixture.names = names_of(refit.extension->assembly());
+  mixture.fit = refit.fit;
+  for (std::size_t k = 0; k < refit.additions.size(); ++k) {
+    mixture.members.push_back({refit.additions[k], nullptr});
+    const diagnosis::Extension::Part& part = refit.extension->parts()[k];
+    auto& own = mixture.own.emplace_back();
+    own.push_back(part.amplitude);
+    own.insert(own.end(), part.nuisance.begin(), part.nuisance.end());
+  }
+  return mixture;
+}
+
 std::optional<Mixture> Mixer::bound(std::vector<Member> members) const {
   const diagnosis::Evidence& evidence = analysis_.evidence;
   std::vector<discovery::KindPointer> kinds;

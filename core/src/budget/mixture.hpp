@@ -53,6 +53,8 @@ class Mixer {
 
   /// The base alone.
   [[nodiscard]] Mixture base() const;
+  /// A refit of the diagnosis, its nuisance parameters fitted.
+  [[nodiscard]] Mixture mixture_of(const diagnosis::Refit& refit) const;
   /// A mixture with one member more, which begins at what the score of its lead promises; none where it cannot be
   /// bound or evaluated.
   [[nodiscard]] std::optional<Mixture> grown(const Mixture& from, const Lead& lead) const;

@@ -35,6 +35,7 @@ assembly::Misfit stated_misfit(const Evidence& evidence) {
     chi_square += evidence.fit.residuals.segment(curve.first, curve.count).squaredNorm();
     rows += static_cast<std::size_t>(curve.count);
   }
+  if (rows == 0) return {};
   return assembly::misfit_of(chi_square, rows, static_cast<std::size_t>(evidence.fit.residuals.size()),
                              evidence.base->layout().parameters.size());
 }

@@ -50,7 +50,6 @@ void name_apart(const Experiment& experiment, const std::string& model, Addition
     return std::any_of(addition.place.tests.begin(), addition.place.tests.end(),
                        [&](const std::string& test) { return has(experiment.test(test).mechanisms); });
   };
-  addition.as.clear();
   for (int number = 2; taken(addition.name()); ++number) addition.as = fmt::format("{}_{}", addition.id, number);
 }
 
