@@ -101,7 +101,8 @@ def diagnosed(options, output, name, verdict, *what):
 def with_uncertainty(options, output):
     """Profiles and bootstrap of a real result."""
     def only_lm(made):
-        return {**made, "runs": [run for run in made["runs"] if run["model"] == "gho" and run["optimizer"] == "lm"]}
+        run = next(run for run in made["runs"] if run["model"] == "gho" and run["optimizer"] == "lm")
+        return {**made, "runs": [run, {**run, "realisations": 2, "initial": "random"}]}  # intervals stand beside each other
     file = experiment(options, options.source / "examples/lamb_aorta/experiment.json", output / "uncertainty", only_lm)
     tunica(options, "run", file, "--quiet", "--profiles", "all", "--bootstrap", "50", "-o", output / "uncertainty")
     return [output / "uncertainty/report.html"]

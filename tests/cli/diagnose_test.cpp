@@ -126,7 +126,8 @@ TEST(Run, SendsNoConstrainedFitToADiagnosisThatDropsTheConstraint) {
   for (auto& test : bench.experiment["tests"]) test["data"]["noise"] = {{"absolute", 0.05}};
   bench.tunica({"run", "experiment.json", "-o", "out"});
   std::size_t constrained = 0, free = 0;
-  for (const auto& warning : bench.result("out")["warning_details"]) {
+  const auto result = bench.result("out");
+  for (const auto& warning : result["warning_details"]) {
     if (warning["kind"] != "noise_contradicted") continue;
     const std::string said = warning["sentence"];
     if (warning["run"] == "gho/lm") {
@@ -139,6 +140,6 @@ TEST(Run, SendsNoConstrainedFitToADiagnosisThatDropsTheConstraint) {
       EXPECT_THAT(said, HasSubstr(". Run tunica diagnose experiment.json"));
     }
   }
-  EXPECT_EQ(constrained, 1u);
+  EXPECT_EQ(constrained, 1u) << result["warning_details"].dump(1);
   EXPECT_EQ(free, 1u);
 }

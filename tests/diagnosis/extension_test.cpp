@@ -59,6 +59,17 @@ TEST(Extension, StandsInTheTestsOfItsPlace) {
   EXPECT_THAT(bed.experiment.tests[1].mechanisms, IsEmpty()) << "the experiment is as it was";
 }
 
+TEST(Extension, NamesApartWhatStandsBesideItsLike) {
+  const Extended bed;
+  const Addition addition{"m", {{"b"}}, {}};
+  const Extension three(bed.experiment, bed.run, {addition, addition, {"m", {{"a"}}, {}}}, bed.shelf);
+  ASSERT_THAT(three.additions(), SizeIs(3));
+  EXPECT_EQ(three.additions()[0].as, "");
+  EXPECT_EQ(three.additions()[1].as, "m_2");
+  EXPECT_EQ(three.additions()[2].as, "") << "in another test";
+  EXPECT_THAT(three.parts().at(1).amplitude, ElementsAre(bed.index(three, "b.m_2.v")));
+}
+
 TEST(Extension, HasOptionsFromTheirDefaultsThePlaceAndTheSetting) {
   const Extended bed;
   const auto options = [&](const Addition& addition) {

@@ -109,7 +109,8 @@ TEST_F(Summary, BeginsWithTheVerdict) {
   explanation.verdict = Verdict::indistinguishable;
   claim.alternatives = {{"third", "fourth"}};
   EXPECT_EQ(line("Verdict"),
-            "INDISTINGUISHABLE: first with second, third with fourth explain the misfit about equally well");
+            "INDISTINGUISHABLE: first with second, third with fourth explain the misfit about equally well; one thing; "
+            "another");
   explanation.unlisted = true;
   EXPECT_EQ(line("Verdict"),
             "INDISTINGUISHABLE: first and second together, or one effect that the catalogue does not list");

