@@ -121,7 +121,8 @@ class Cards(unittest.TestCase):
 
     def test_polynomials_of_three_five_and_nine_constants_reproduce_a_sheet(self):
         for terms, values in POLYNOMIALS.items():
-            self.reproduce(self.sheet("mooney_rivlin", values, terms=terms), "--bulk-ratio", "1e4")
+            # The card is nearly incompressible; with nine constants 1e5 costs CalculiX the last digits.
+            self.reproduce(self.sheet("mooney_rivlin", values, terms=terms), "--bulk-ratio", "1e4" if terms == 9 else "1e5")
 
     def test_the_bulk_modulus_is_that_of_the_card(self):
         fits = {"calculix": (self.rubber(), ["--run", "neo_hooke/lm"]), "fibres": (self.sheet("hgo"), [])}

@@ -152,11 +152,14 @@ TEST(Diagnose, WritesTheNoiseOfAMeanWhereThereAreReplicates) {
   data["files"] = {"axial.csv", "2.csv", "3.csv", "4.csv"};
   for (const char* copy : {"2.csv", "3.csv", "4.csv"})
     std::filesystem::copy_file(measured.folder.path() / "axial.csv", measured.folder.path() / copy);
-  ASSERT_EQ(tunica(measured, {"diagnose", "experiment.json", "-o", "out", "--quick", "--quiet"}).code, 0);
+  ASSERT_EQ(tunica(measured, {"diagnose", "experiment.json", "-o", "out", "--quick", "--quiet", "--mechanisms",
+                              "axial_fibres"})
+                .code,
+            0);
   std::istringstream table(text_of(measured.folder.path() / "out" / "residuals.csv"));
   std::string line;
   std::getline(table, line);
-  ASSERT_THAT(line, HasSubstr("measured,predicted,extended,sigma,residual,residual_extended"));
+  ASSERT_THAT(line, HasSubstr("measured,predicted,extended,sigma,residual,residual_extended,signature_"));
   int rows = 0;
   while (std::getline(table, line)) {
     std::vector<std::string> cells;

@@ -335,8 +335,11 @@ Entrants entrants_of(Field& field) {
   const double all = diagnosis::log_sum(logs);
   found.unlisted_probability = std::exp(logs.front() - all);
   for (Entrant& one : found.all) one.probability = std::exp(one.log_evidence - all);
-  std::stable_sort(found.all.begin(), found.all.end(),
-                   [](const Entrant& a, const Entrant& b) { return a.share > b.share; });
+  std::stable_sort(found.all.begin(), found.all.end(), [](const Entrant& a, const Entrant& b) {
+    // A mechanism and a term may be the same: rounding does not order them.
+    const double more = std::round(1e6 * a.share), less = std::round(1e6 * b.share);
+    return more != less ? more > less : a.id < b.id;
+  });
   return found;
 }
 

@@ -179,6 +179,7 @@ void claim(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysi
     if (std::find(claim.ambiguity_set.begin(), claim.ambiguity_set.end(), addition.id) == claim.ambiguity_set.end())
       claim.ambiguity_set.push_back(addition.id);
   }
+  claim.rivals = {refit};
   claim.best = std::move(refit);
   explanation.claim = std::move(claim);
 }
