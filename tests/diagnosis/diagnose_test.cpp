@@ -152,8 +152,8 @@ TEST(Diagnose, WritesTheNoiseOfAMeanWhereThereAreReplicates) {
   data["files"] = {"axial.csv", "2.csv", "3.csv", "4.csv"};
   for (const char* copy : {"2.csv", "3.csv", "4.csv"})
     std::filesystem::copy_file(measured.folder.path() / "axial.csv", measured.folder.path() / copy);
-  ASSERT_EQ(tunica(measured, {"diagnose", "experiment.json", "-o", "out", "--quick", "--quiet", "--mechanisms",
-                              "axial_fibres"})
+  ASSERT_EQ(tunica(measured,
+                   {"diagnose", "experiment.json", "-o", "out", "--quick", "--quiet", "--mechanisms", "axial_fibres"})
                 .code,
             0);
   std::istringstream table(text_of(measured.folder.path() / "out" / "residuals.csv"));
