@@ -43,8 +43,9 @@ std::vector<discovery::KindPointer> kinds_for(const diagnosis::Diagnosis& d, con
   const diagnosis::Evidence& evidence = d.analysis.evidence;
   discovery::Request request;
   request.model = d.request.model;
-  const bool directions =
-      !diagnosis::is_isotropic(evidence.base->models().model(0)) || discovery::shows_directions(evidence);
+  // Fibres of an isotropic base are looked for where the data show two directions, and nowhere else.
+  const bool directions = !diagnosis::is_isotropic(evidence.base->models().model(0)) ||
+                          !anisotropy_words(evidence, tolerance_of(d.request, evidence).share).empty();
   const discovery::Fitter fitter(subject, evidence);
   return discovery::scaled_kinds(
       fitter, discovery::kinds_of(request, discovery::reached_states(subject, evidence.fit.free), directions));

@@ -38,9 +38,7 @@ bool shows_directions(const diagnosis::Evidence& evidence) {
   std::set<std::string> directions;
   for (const diagnosis::Curve& curve : evidence.curves) {
     const experiment::TestEntry& test = evidence.experiment.test(curve.test);
-    // A sheet has a channel along each direction; a strip has one direction.
-    const bool of_sheet = curve.channel.ends_with("_circumferential") || curve.channel.ends_with("_axial");
-    directions.insert(!of_sheet && test.options.has("direction") ? test.options.text("direction") : curve.channel);
+    directions.insert(test.options.has("direction") ? test.options.text("direction") : curve.channel);
   }
   return directions.size() > 1;
 }
