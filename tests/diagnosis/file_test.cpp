@@ -29,22 +29,7 @@ using ::testing::Not;
 class Wall {
  public:
   Wall() {
-    experiment = {{"format", 1},
-                  {"name", "wall"},
-                  {"seed", 1},
-                  {"models",
-                   {{"gho",
-                     {{"type", "gho"},
-                      {"parameters",
-                       {{"mu", {{"min", 1}, {"max", 100}, {"scale", "log"}, {"initial", 18.668}}},
-                        {"kappa", {{"fixed", 0.1367}}},
-                        {"k1", {{"min", 1}, {"max", 200}, {"scale", "log"}, {"initial", 24.905}}},
-                        {"k2", {{"min", 0.01}, {"max", 5}, {"scale", "log"}, {"initial", 0.2912}}},
-                        {"theta", {{"fixed", 38}}}}}}}}},
-                  {"tests", json::object()},
-                  {"objective", "least_squares"},
-                  {"optimizers", {{"lm", {{"type", "ceres_lm"}}}}},
-                  {"runs", {{{"model", "gho"}, {"optimizer", "lm"}}}}};
+    experiment = experiment_of_a_wall("wall", 38);
     for (const char* const direction : {"circumferential", "axial"})
       add(direction, {{"type", "uniaxial"}, {"direction", direction}}, {"stretch"}, {"stress"}, {0.5});
     int number = 0;

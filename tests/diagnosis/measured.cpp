@@ -13,23 +13,27 @@ namespace tunica::trial {
 
 using nlohmann::json;
 
+json experiment_of_a_wall(const std::string& name, double theta) {
+  return {{"format", 1},
+          {"name", name},
+          {"seed", 1},
+          {"models",
+           {{"gho",
+             {{"type", "gho"},
+              {"parameters",
+               {{"mu", {{"min", 1}, {"max", 100}, {"scale", "log"}, {"initial", 18.668}}},
+                {"kappa", {{"fixed", 0.1367}}},
+                {"k1", {{"min", 1}, {"max", 200}, {"scale", "log"}, {"initial", 24.905}}},
+                {"k2", {{"min", 0.01}, {"max", 5}, {"scale", "log"}, {"initial", 0.2912}}},
+                {"theta", {{"fixed", theta}}}}}}}}},
+          {"tests", json::object()},
+          {"objective", "least_squares"},
+          {"optimizers", {{"lm", {{"type", "ceres_lm"}}}}},
+          {"runs", {{{"model", "gho"}, {"optimizer", "lm"}}}}};
+}
+
 Measured::Measured(std::vector<Strip> wanted) : strips(std::move(wanted)) {
-  experiment = {{"format", 1},
-                {"name", "measured"},
-                {"seed", 1},
-                {"models",
-                 {{"gho",
-                   {{"type", "gho"},
-                    {"parameters",
-                     {{"mu", {{"min", 1}, {"max", 100}, {"scale", "log"}, {"initial", 18.668}}},
-                      {"kappa", {{"fixed", 0.1367}}},
-                      {"k1", {{"min", 1}, {"max", 200}, {"scale", "log"}, {"initial", 24.905}}},
-                      {"k2", {{"min", 0.01}, {"max", 5}, {"scale", "log"}, {"initial", 0.2912}}},
-                      {"theta", {{"fixed", 46.44}}}}}}}}},
-                {"tests", json::object()},
-                {"objective", "least_squares"},
-                {"optimizers", {{"lm", {{"type", "ceres_lm"}}}}},
-                {"runs", {{{"model", "gho"}, {"optimizer", "lm"}}}}};
+  experiment = experiment_of_a_wall("measured", 46.44);
   for (const Strip& strip : strips) {
     json columns = {{"stretch", "stretch"}, {"stress", "stress"}};
     if (!strip.time.empty()) columns["time"] = "time";

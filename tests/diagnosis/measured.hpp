@@ -23,6 +23,9 @@ struct Strip {
   std::vector<double> time = {};
 };
 
+/// A gho wall (set S of Canales et al. 2023, theta in degrees) without tests; mu, k1, k2 are searched for.
+nlohmann::json experiment_of_a_wall(const std::string& name, double theta);
+
 /// An experiment on strips of one gho wall (set S of Canales et al. 2023; mu, k1, k2 are searched for, kappa and theta
 /// known) in a folder of its own, and data that show what the model does not have.
 class Measured {
