@@ -152,7 +152,8 @@ void add_specimens(Page& page, const Json& discovery) {
 
 void add_terms(Page& page, const Folder& folder) {
   const Json& discovery = member(folder.result(), "discovery");
-  if (!discovery.is_object()) return;
+  // Where one cause leads, the terms of a search that came before are no part of the answer.
+  if (!discovery.is_object() || word(member(folder.result(), "diagnosis"), "verdict") == "leading") return;
   const Json& terms = list(discovery, "terms");
   if (terms.empty()) return;
   page.section("Terms of the energy");
