@@ -27,7 +27,8 @@ bool is_settled(const diagnosis::Diagnosis& d, const discovery::Discovery* searc
     case Verdict::unknown:
       break;
   }
-  return false;
+  // Too many explanations that all leave noise are no misfit that nobody lists.
+  return d.explanation.claim.best && diagnosis::is_clean(d.explanation.p_after);
 }
 
 /// The model that terms can be added to; none: there is no single one, or a test is too costly.
@@ -79,7 +80,8 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
     budget.adequate = budget.rest().upper <= budget.tolerance.share;
     return budget;
   };
-  if (!analysis.alarm.raised) return finish(std::nullopt);
+  // Where a test is a series of simulations, every further fit costs as much as the diagnosis.
+  if (!analysis.alarm.raised || analysis.evidence.base->layout().has_costly_tests) return finish(std::nullopt);
 
   const experiment::Experiment measured = experiment::measured_only(experiment);
   const diagnosis::Inquiry inquiry{measured, d.request, catalogue, progress};

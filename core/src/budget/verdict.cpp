@@ -29,7 +29,6 @@ constexpr double sure_enough = 0.9;  ///< probability, with "no listed cause" am
 struct Decision {
   Verdict verdict = Verdict::unknown;
   std::vector<const Contender*> first;  ///< what leads, or is about as good; best first
-  const Contender* next = nullptr;      ///< the best cause that is another one
 };
 
 double probability_of(const std::vector<const Contender*>& some) {
@@ -71,12 +70,9 @@ Decision decided(const Budget& budget) {
   std::vector<const Contender*> ties;
   for (const Contender& one : budget.contenders) {
     if (one.share > top->share + ahead) return decision;  // its name is not for the runner-up to have
-    const bool close = one.share >= top->share - ahead;
-    if (close && one.in_the_energy && one.probability < unlikely * likeliest) continue;
-    (close ? ties : decision.first).push_back(&one);
+    const bool unlikely_form = one.in_the_energy && one.probability < unlikely * likeliest;
+    if (one.share >= top->share - ahead && !unlikely_form) ties.push_back(&one);
   }
-  const auto others = std::exchange(decision.first, {});
-  if (!others.empty()) decision.next = others.front();
   if (top->share < most_of_it) return leading_by_steps(budget, std::move(decision));
   if (probability_of(ties) < sure_enough) return decision;
   // A cause that lets one test have a material of its own takes what any other takes there: it is named where nothing
@@ -136,7 +132,7 @@ std::string tie_words(const Budget& budget, const Decision& decision) {
   return fmt::format("alone they take {} of the misfit; {}", fmt::join(parts, ", "), remains(budget));
 }
 
-std::string unknown_words(const Budget& budget, const Decision& decision) {
+std::string unknown_words(const Budget& budget) {
   if (budget.rough)
     return fmt::format(
         "the base misses by {} of the range, and what the best cause leaves is rougher than a smooth misfit: the noise "
@@ -153,7 +149,7 @@ std::string unknown_words(const Budget& budget, const Decision& decision) {
   if (budget.unlisted_probability > 1 - sure_enough)
     text += fmt::format("; that it is a smooth misfit without a listed cause has probability {:.2f}",
                         budget.unlisted_probability);
-  else if (decision.next == nullptr || best.share < most_of_it)
+  else if (best.share < most_of_it)
     text += ", and no cause takes half";
   return text;
 }
@@ -202,7 +198,7 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
   Explanation& explanation = d.explanation;
   if (decision.verdict == Verdict::unknown) {
     if (explanation.verdict == Verdict::discovered) return d;
-    explanation.reasons = {{ReasonKind::unlisted_misfit, unknown_words(budget, decision)}};
+    explanation.reasons = {{ReasonKind::unlisted_misfit, unknown_words(budget)}};
     add_anisotropy(budget, explanation);
     return d;
   }
