@@ -117,8 +117,10 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   const auto page = report::write_report(directory.path());
   text::StyledText words = diagnosis::summary(found.diagnosis);
   if (found.discovered()) words += discovery::term_summary(*found.search);
-  if (found.budget && found.diagnosis.analysis.alarm.raised)
-    words += budget::summary(*found.budget, found.diagnosis.request.model);
+  if (found.budget)
+    words += found.diagnosis.analysis.alarm.raised
+                 ? budget::summary(*found.budget, found.diagnosis.request.model)
+                 : budget::same_model_line(*found.budget, found.diagnosis.request.model);
   answer("{}\nReport:   {}\nResults:  {}\n", words.shown_on(answer_descriptor()), page.string(),
          (directory.path() / "result.json").string());
   if (found.diagnosis.explanation.mended)

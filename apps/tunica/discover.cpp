@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "budget/discover.hpp"
+
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -88,8 +90,8 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
     supervised::unfinished(output.made, output.directory.path());
     UnfinishedResults folder(output.made, discovery_interrupted());
     Stages stages(global.quiet);
-    found = discovery::discover(experiment, request, session.catalogue(),
-                                [&stages](const std::string& what, double share) { stages.tell(what, share); });
+    found = budget::discover(experiment, request, session.catalogue(),
+                             [&stages](const std::string& what, double share) { stages.tell(what, share); });
     folder.keep();
   } catch (const diagnosis::BaseFitFailure& problem) {
     say_error(fmt::format("{}. Run `{}`, which evaluates the initial point and shows what fails", problem.what(),
@@ -158,7 +160,7 @@ int discover_batch(const GlobalOptions& global, const DiscoverOptions& options) 
                    [&](const std::filesystem::path& of_case, const std::filesystem::path& results) {
                      const auto experiment = session.read(of_case / "experiment.json");
                      const auto found =
-                         discovery::discover(experiment, request_of(experiment, options.wishes), session.catalogue());
+                         budget::discover(experiment, request_of(experiment, options.wishes), session.catalogue());
                      execution::make_folder(results);
                      write_discovery(results, found, experiment, session.catalogue());
                    });

@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include "arrays.hpp"
+#include "budget/discover.hpp"
 #include "calibration/calibrate.hpp"
 #include "calibration/overrides.hpp"
 #include "card_name.hpp"
@@ -234,7 +235,7 @@ py::dict discover(const Loaded& loaded, const Folder& directory, unsigned thread
   return searched(
       loaded, directory, threads, progress,
       [&](const plugins::Catalogue& catalogue, const std::filesystem::path& folder, const diagnosis::Progress& told) {
-        const auto found = discovery::discover(loaded.experiment, request, catalogue, told);
+        const auto found = budget::discover(loaded.experiment, request, catalogue, told);
         app::write_discovery(folder, found, loaded.experiment, *loaded.catalogue);
       });
 }

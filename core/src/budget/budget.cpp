@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "budget/anisotropy.hpp"
+#include "budget/same_model.hpp"
+#include "diagnosis/evidence/anisotropy.hpp"
 #include "diagnosis/hypotheses/isotropy.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "discovery/preparation.hpp"
@@ -46,10 +47,16 @@ std::vector<discovery::KindPointer> kinds_for(const diagnosis::Diagnosis& d, con
   request.model = d.request.model;
   // Fibres of an isotropic base are looked for where the data show two directions, and nowhere else.
   const bool directions = !diagnosis::is_isotropic(evidence.base->models().model(0)) ||
-                          !anisotropy_words(evidence, tolerance_of(d.request, evidence).share).empty();
+                          !diagnosis::anisotropy_words(evidence, tolerance_of(d.request, evidence).share).empty();
   const discovery::Fitter fitter(subject, evidence);
   return discovery::scaled_kinds(
       fitter, discovery::kinds_of(request, discovery::reached_states(subject, evidence.fit.free), directions));
+}
+
+std::vector<std::string> ids_of(const std::vector<diagnosis::Addition>& additions) {
+  std::vector<std::string> ids;
+  for (const diagnosis::Addition& one : additions) ids.push_back(one.id);
+  return ids;
 }
 
 std::vector<std::string> not_looked_for(const diagnosis::Analysis& analysis) {
@@ -72,34 +79,45 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
   budget.tolerance = tolerance_of(d.request, analysis.evidence);
   budget.base = size.of(analysis.evidence.fit);
   budget.base_channels = budget.rest_channels = size.channels(analysis.evidence.fit);
+  const auto subject = subject_of(d, catalogue);
+  const auto name_model = [&](std::vector<std::string> causes, const assembly::Assembly& extended,
+                              const diagnosis::Fit& fit, const std::vector<diagnosis::Addition>& additions) {
+    if (!subject || causes.empty()) return;
+    budget.same_model = same_model(*subject, analysis.evidence, extended, fit, additions);
+    if (!budget.same_model.empty()) budget.same_with = std::move(causes);
+  };
   const auto finish = [&](std::optional<Mixture> fitted) {
     if (fitted) {
       budget.rest_channels = size.channels(fitted->fit);
+      std::vector<std::string> causes;
+      for (const Member& member : fitted->members) causes.push_back(member.words());
+      name_model(std::move(causes), fitted->extension->assembly(), fitted->fit, fitted->extension->additions());
       budget.fitted = std::make_shared<const Mixture>(std::move(*fitted));
     }
     budget.adequate = budget.rest().upper <= budget.tolerance.share;
     return budget;
   };
+  const auto& claim = d.explanation.claim;
+  if (!analysis.alarm.raised && claim.best)  // what restores stability
+    name_model(ids_of(claim.best->additions), claim.best->extension->assembly(), claim.best->fit,
+               claim.best->additions);
   // Where a test is a series of simulations, every further fit costs as much as the diagnosis.
   if (!analysis.alarm.raised || analysis.evidence.base->layout().has_costly_tests) return finish(std::nullopt);
 
   const experiment::Experiment measured = experiment::measured_only(experiment);
   const diagnosis::Inquiry inquiry{measured, d.request, catalogue, progress};
-  const auto subject = subject_of(d, catalogue);
   const Mixer mixer(inquiry, analysis, subject ? &*subject : nullptr);
   const bool settled = is_settled(d, search);
   std::vector<discovery::KindPointer> kinds;
   if (subject && !settled) kinds = kinds_for(d, *subject);
-  Field field{inquiry,
-              analysis,
-              mixer,
-              size,
-              leads_of(analysis, subject ? &*subject : nullptr, kinds),
-              d.explanation.claim.rivals};
+  Field field{inquiry, analysis, mixer, size, leads_of(analysis, subject ? &*subject : nullptr, kinds), claim.rivals};
   if (settled) {
-    if (!d.explanation.claim.best) return finish(std::nullopt);
-    Mixture fitted = mixer.mixture_of(*d.explanation.claim.best);
-    budget.steps = steps_of(field, fitted);
+    std::optional<Mixture> fitted;
+    if (d.explanation.verdict == Verdict::discovered)
+      fitted = mixer.mixture_of(*search->best);
+    else if (claim.best)
+      fitted = mixer.mixture_of(*claim.best);
+    if (fitted) budget.steps = steps_of(field, *fitted);
     return finish(std::move(fitted));
   }
   inquiry.report("what takes how much", 0.96);
@@ -111,7 +129,7 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
                                  one.probability, one.rest, one.belief});
   budget.not_looked_for = not_looked_for(analysis);
   if (subject && diagnosis::is_isotropic(analysis.evidence.base->models().model(0)))
-    budget.anisotropy = anisotropy_words(analysis.evidence, budget.tolerance.share);
+    budget.anisotropy = diagnosis::anisotropy_words(analysis.evidence, budget.tolerance.share);
   Steps steps = steps_of(field, entrants, budget.tolerance.share);
   budget.steps = std::move(steps.all);
   return finish(std::move(steps.fitted));

@@ -35,6 +35,8 @@ struct Budget {
   std::optional<Contender> lead;      ///< with_verdict_of() sets it where one cause leads
   bool adequate = false;              ///< the bound of the rest is within the tolerance
   std::string anisotropy;             ///< what the data say of directions that the base lacks; empty: nothing
+  std::string same_model;             ///< the registered model that the base with its causes is; empty: none
+  std::vector<std::string> same_with;  ///< those causes
   std::vector<std::string> not_looked_for;  ///< mechanisms that could be the cause, and why nobody tried them
   std::shared_ptr<const Mixture> fitted;    ///< all steps; null where there are none
 

@@ -9,6 +9,7 @@
 #include "diagnosis/naming/refits.hpp"
 #include "discovery/bound_set.hpp"
 #include "discovery/judgement.hpp"
+#include "discovery/set_fit.hpp"
 
 /// How much each cause takes of a misfit, and how much is left: mechanisms and terms of the energy in one search.
 namespace tunica::budget {
@@ -55,6 +56,8 @@ class Mixer {
   [[nodiscard]] Mixture base() const;
   /// A refit of the diagnosis, its nuisance parameters fitted.
   [[nodiscard]] Mixture mixture_of(const diagnosis::Refit& refit) const;
+  /// The terms that a discovery found; none where they cannot be bound.
+  [[nodiscard]] std::optional<Mixture> mixture_of(const discovery::SetFit& found) const;
   /// A mixture with one member more, which begins at what the score of its lead promises; none where it cannot be
   /// bound or evaluated.
   [[nodiscard]] std::optional<Mixture> grown(const Mixture& from, const Lead& lead) const;

@@ -98,14 +98,6 @@ double share_of(const Budget& budget, const Contender& contender) {
   return std::max(sum, contender.share);
 }
 
-std::string remains(const Budget& budget) {
-  if (budget.rest().rms < 5e-4)
-    return fmt::format("nothing beyond noise is left, at most {} of the range (tolerance {}, {})",
-                       percent(budget.rest().upper), percent(budget.tolerance.share), origin_words(budget.tolerance));
-  return fmt::format("{} of the range remains (tolerance {}, {}), for which no cause is claimed",
-                     percent(budget.rest().rms), percent(budget.tolerance.share), origin_words(budget.tolerance));
-}
-
 std::string place_of(const diagnosis::Place& place) { return place.tests.empty() ? "" : " " + place.words(); }
 
 std::string leading_words(const Budget& budget, const Decision& decision) {
@@ -119,7 +111,7 @@ std::string leading_words(const Budget& budget, const Decision& decision) {
                                  percent(share_of(budget, first)));
   if (first.belief == Belief::flagged) text += ", with an amplitude somewhat beyond what is plausible";
   if (!forms.empty()) text += fmt::format("; its form is open ({} alone)", fmt::join(forms, ", "));
-  return text + "; " + remains(budget);
+  return text + "; " + remains(budget.rest(), budget.tolerance);
 }
 
 std::string tie_words(const Budget& budget, const Decision& decision) {
@@ -129,7 +121,8 @@ std::string tie_words(const Budget& budget, const Decision& decision) {
     if (sorts.insert(one->sort).second)
       parts.push_back(fmt::format("{} {}{}", one->id, percent(one->share),
                                   one->belief == Belief::beyond ? " (beyond what is plausible)" : ""));
-  return fmt::format("alone they take {} of the misfit; {}", fmt::join(parts, ", "), remains(budget));
+  return fmt::format("alone they take {} of the misfit; {}", fmt::join(parts, ", "),
+                     remains(budget.rest(), budget.tolerance));
 }
 
 std::string unknown_words(const Budget& budget) {

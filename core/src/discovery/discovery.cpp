@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "diagnosis/evidence/anisotropy.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/prospects/gain.hpp"
 #include "discovery/next.hpp"
@@ -13,6 +14,7 @@
 #include "discovery/remainder.hpp"
 #include "discovery/search.hpp"
 #include "discovery/verdict.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::discovery {
 namespace {
@@ -20,6 +22,7 @@ namespace {
 struct Searched {
   std::shared_ptr<const Subject> subject;
   std::vector<SetFit> sets;  ///< likeliest first
+  std::string anisotropy = {};
 };
 
 /// All sets of closed laws, and of curves where these say more.
@@ -44,7 +47,7 @@ std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Req
   return sets;
 }
 
-/// From nothing, fibres are tried where an isotropic energy leaves more than noise.
+/// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions.
 Searched search_in(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis, const Request& request,
                    bool has_directions) {
   const diagnosis::Evidence& evidence = analysis.evidence;
@@ -59,7 +62,8 @@ Searched search_in(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis&
   inquiry.report("terms of the energy", 0.4);
   Searched found{subject, over(has_directions)};
   const bool clean = !found.sets.empty() && diagnosis::is_clean(p_of_rest(analysis, found.sets.front().fit));
-  if (request.from_nothing && !has_directions && !clean && request.invariants.empty() && shows_directions(evidence)) {
+  if (!has_directions) found.anisotropy = diagnosis::anisotropy_words(evidence);
+  if (!found.anisotropy.empty() && !clean && request.invariants.empty()) {
     inquiry.report("terms of fibres", 0.6);
     std::vector<SetFit> with_fibres = over(true);
     if (!with_fibres.empty() &&
@@ -103,6 +107,8 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
   }
   found.paths = path_dependence(found.analysis.evidence, found.best ? found.best->fit : found.analysis.evidence.fit);
   settle(found, searched.sets);
+  if (!searched.anisotropy.empty())
+    found.judgement.reasons.push_back({ReasonKind::anisotropy_seen, text::capitalised(searched.anisotropy) + "."});
   if (!found.terms.empty()) {
     for (std::size_t k = 0; k < found.terms.size(); ++k)
       found.terms[k].curve = mixed_curve(*found.subject, searched.sets, k);

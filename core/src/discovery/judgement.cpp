@@ -113,6 +113,12 @@ const char* code_of(ReasonKind kind) {
       return "specimens_agree";
     case ReasonKind::specimens_left_over:
       return "specimens_left_over";
+    case ReasonKind::anisotropy_seen:
+      return "anisotropy_seen";
+    case ReasonKind::leads:
+      return "leads";
+    case ReasonKind::same_model:
+      return "same_model";
     case ReasonKind::no_term:
       break;
   }

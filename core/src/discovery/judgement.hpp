@@ -26,7 +26,10 @@ enum class ReasonKind {
   no_term,
   gross_rows,
   specimens_agree,
-  specimens_left_over
+  specimens_left_over,
+  anisotropy_seen,
+  leads,
+  same_model
 };
 const char* code_of(ReasonKind kind);
 

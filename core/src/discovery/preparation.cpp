@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "discovery/preparation.hpp"
 
-#include <set>
 #include <string>
 #include <utility>
 
@@ -32,15 +31,6 @@ std::vector<KindPointer> scaled_kinds(const Fitter& fitter, std::vector<Kind> ki
   for (Kind& kind : kinds)
     if (kind.largest != 0) shared.push_back(std::make_shared<const Kind>(std::move(kind)));
   return shared;
-}
-
-bool shows_directions(const diagnosis::Evidence& evidence) {
-  std::set<std::string> directions;
-  for (const diagnosis::Curve& curve : evidence.curves) {
-    const experiment::TestEntry& test = evidence.experiment.test(curve.test);
-    directions.insert(test.options.has("direction") ? test.options.text("direction") : curve.channel);
-  }
-  return directions.size() > 1;
 }
 
 diagnosis::Analysis screened(const diagnosis::Inquiry& inquiry) {

@@ -22,9 +22,6 @@ diagnosis::Analysis screened(const diagnosis::Inquiry& inquiry);
 bool has_directions(const experiment::Experiment& experiment, const std::string& name,
                     const plugins::Catalogue& catalogue);
 
-/// Whether the tests show two directions of the sheet: strips cut along both, or stresses along both.
-bool shows_directions(const diagnosis::Evidence& evidence);
-
 /// What is searched, with amplitudes that the data can hold.
 std::vector<KindPointer> scaled_kinds(const Fitter& fitter, std::vector<Kind> kinds);
 

@@ -101,7 +101,11 @@ void add_alone(Page& page, const Json& budget) {
 
 void add_budget(Page& page, const Folder& folder) {
   const Json& budget = member(member(folder.result(), "diagnosis"), "budget");
-  if (!budget.is_object() || list(budget, "steps").empty()) return;
+  if (!budget.is_object()) return;
+  if (const Json& same = member(budget, "same_model"); same.is_object())
+    page.box("", fmt::format("With its causes, the base is the model {} on these data.", word(same, "type")),
+             {fmt::format("Take \"type\": \"{}\" in the experiment file.", word(same, "type"))});
+  if (list(budget, "steps").empty()) return;
   page.section("Budget of the misfit");
   page.chart(waterfall(budget), folder.address());
   add_channels(page, budget);

@@ -59,6 +59,7 @@ json budget_json(const Budget& budget) {
                  {"adequate", budget.adequate},
                  {"channels", channels_json(budget.base_channels)},
                  {"rest", channels_json(budget.rest_channels)}};
+  if (!budget.same_model.empty()) result["same_model"] = {{"type", budget.same_model}, {"with", budget.same_with}};
   if (budget.contenders.empty()) return result;
   if (budget.lead)
     result["lead"] = {{"id", budget.lead->id},

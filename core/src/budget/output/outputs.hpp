@@ -16,6 +16,12 @@ std::string percent(double share);
 /// "stated", "default", "scatter between the repeats"
 const char* origin_words(const Tolerance& tolerance);
 
+/// "2.3 % of the range remains (tolerance 2.0 %, default), for which no cause is claimed"
+std::string remains(const Size& rest, const Tolerance& tolerance);
+
+/// The registered model that the base with its causes is, as a line below the verdict; empty where there is none.
+text::StyledText same_model_line(const Budget& budget, const std::string& base);
+
 /// `diagnosis.budget` of result.json.
 nlohmann::ordered_json budget_json(const Budget& budget);
 

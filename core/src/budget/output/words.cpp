@@ -56,6 +56,23 @@ const char* origin_words(const Tolerance& tolerance) {
   return "default";
 }
 
+std::string remains(const Size& rest, const Tolerance& tolerance) {
+  if (rest.rms < 5e-4)
+    return fmt::format("nothing beyond noise is left, at most {} of the range (tolerance {}, {})", percent(rest.upper),
+                       percent(tolerance.share), origin_words(tolerance));
+  return fmt::format("{} of the range remains (tolerance {}, {}), for which no cause is claimed", percent(rest.rms),
+                     percent(tolerance.share), origin_words(tolerance));
+}
+
+text::StyledText same_model_line(const Budget& budget, const std::string& base) {
+  text::StyledText line;
+  if (!budget.same_model.empty())
+    line += text::hanging("Model:    ", fmt::format("{} with {} is the model `{}` on these data", base,
+                                                    fmt::join(budget.same_with, " and "), budget.same_model)) +
+            '\n';
+  return line;
+}
+
 text::StyledText summary(const Budget& budget, const std::string& base) {
   text::StyledText lines;
   std::string text = fmt::format("{} misses by {} of the range", base, percent(budget.base.rms));
@@ -65,6 +82,7 @@ text::StyledText summary(const Budget& budget, const std::string& base) {
   text += "; " + tolerance_words(budget);
   lines += text::hanging("Budget:   ", text) + '\n';
   if (!budget.rest_channels.empty()) lines += text::hanging("Left:     ", channel_words(budget.rest_channels)) + '\n';
+  lines += same_model_line(budget, base);
   std::vector<std::string> others;
   for (const Contender& one : budget.contenders) {
     const bool step =

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/evidence/anisotropy.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "discovery/common/common_rivals.hpp"
@@ -49,7 +50,7 @@ struct Searched {
   std::vector<CommonFit> sets;  ///< likeliest first
 };
 
-/// From nothing, fibres are tried where an isotropic energy leaves more than noise.
+/// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions.
 Searched search_in(const std::vector<Searching>& specimens, const Request& request, const plugins::Catalogue& catalogue,
                    bool has_directions) {
   Searched found;
@@ -73,8 +74,9 @@ Searched search_in(const std::vector<Searching>& specimens, const Request& reque
   };
   found.sets = over(has_directions);
   const bool clean = !found.sets.empty() && is_clean(specimens, found.sets.front());
-  if (request.from_nothing && !has_directions && !clean && request.invariants.empty() &&
-      shows_directions(specimens.front().analysis.evidence)) {
+  if (!has_directions && !clean && request.invariants.empty() &&
+      std::any_of(specimens.begin(), specimens.end(),
+                  [](const Searching& one) { return !diagnosis::anisotropy_words(one.analysis.evidence).empty(); })) {
     std::vector<CommonFit> with_fibres = over(true);
     if (!with_fibres.empty() &&
         (found.sets.empty() || with_fibres.front().log_evidence > found.sets.front().log_evidence))

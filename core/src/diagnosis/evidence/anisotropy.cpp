@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "budget/anisotropy.hpp"
+#include "diagnosis/evidence/anisotropy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "text/units.hpp"
 
-namespace tunica::budget {
+namespace tunica::diagnosis {
 namespace {
 
 using assembly::MeasuredChannel;
@@ -73,7 +73,7 @@ std::optional<Difference> difference(const MeasuredChannel& around, const Points
   std::optional<Difference> worst;
   if (first.empty() || second.empty()) return worst;
   const double range = std::max(range_of(around), range_of(along));
-  const std::vector<double> a = diagnosis::row_deviations(around), b = diagnosis::row_deviations(along);
+  const std::vector<double> a = row_deviations(around), b = row_deviations(along);
   if (a.empty() || b.empty()) return worst;
   const double sigma = std::hypot(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
   for (const auto& [stretch, value] : first)
@@ -103,7 +103,7 @@ Points pulled(const MeasuredChannel& view) {
 
 }  // namespace
 
-std::string anisotropy_words(const diagnosis::Evidence& evidence, double tolerance) {
+std::string anisotropy_words(const Evidence& evidence, double tolerance) {
   const auto& channels = evidence.base->layout().channels;
   std::optional<Difference> worst;
   std::string where, unit;
@@ -138,4 +138,4 @@ std::string anisotropy_words(const diagnosis::Evidence& evidence, double toleran
       worst->stretch, worst->one, worst->other, text::unit_suffix(unit), where);
 }
 
-}  // namespace tunica::budget
+}  // namespace tunica::diagnosis
