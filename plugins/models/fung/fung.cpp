@@ -14,122 +14,221 @@
 //
 // The material is incompressible: tests add a pressure, so that `plane` needs no radial strain. Where a1 = a2 = 2 a4 it
 // is isotropic for small strains.
-#include <numbers>
+//
+// Derivatives are written out and not taken by JointEnergy: on Taylor numbers of ten parameters and six invariants this
+// file would compile for three minutes.
+#include <array>
+#include <cmath>
 #include <utility>
 
-#include "tunica/models/joint_energy.hpp"
+#include <Eigen/Core>
+
+#include "tunica/plugin.hpp"
 
 namespace {
 
 using namespace tunica;
 
 enum class Form { plane, wall, wall_with_shear };
-/// Parameters of the largest form; the others lack the last ones, and `plane` has a4 in the place of a3.
-enum { c, a1, a2, a3, a4, a5, a6, a7, a8, a9, all_parameters };
+/// c and the nine coefficients; `plane` has parameters for c, a1, a2 and a4 only, `wall` for those up to a6.
+enum Coefficient { c, a1, a2, a3, a4, a5, a6, a7, a8, a9, coefficients };
+/// Strains in the order of tensors: tt, zz, rr, tz, zr, tr.
+constexpr Eigen::Index strains = 6;
+using Strain = Eigen::Matrix<double, strains, 1>;
+using ByParameters = Eigen::Matrix<double, strains, Eigen::Dynamic, Eigen::ColMajor, strains, coefficients>;
+
+/// The entry of K that a coefficient is, where Q = EᵀKE. In shear it is twice the coefficient.
+constexpr std::array<std::pair<int, int>, coefficients> entry{
+    {{}, {0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}, {3, 3}, {4, 4}, {5, 5}}};
+constexpr double factor(int coefficient) { return coefficient < a7 ? 1 : 2; }
 
 const char *const fung_1979 = "Fung, Fronek, Patitucci, Am. J. Physiol. 237:H620 (1979)",
                   *const chuong_fung = "Chuong, Fung, J. Biomech. Eng. 105:268 (1983)",
                   *const humphrey = "Humphrey, Crit. Rev. Biomed. Eng. 23:1 (1995)";
 
-template <Form form>
-struct Fung {
-  static constexpr auto type = "fung", doc = "Artery wall, an exponential of a quadratic form in Green strains.",
-                        reference = "Fung, Fronek, Patitucci, Am. J. Physiol. 237:H620 (1979)";
-  static constexpr bool is_plane = form == Form::plane, has_shear = form == Form::wall_with_shear;
-  static constexpr std::size_t parameter_count = is_plane ? 4 : has_shear ? all_parameters : 7;
-  static constexpr std::size_t invariant_count = 6;
+std::vector<Parameter> parameters_of(Form form) {
+  const auto square = [](const char* name, double initial, const char* doc, const char* source) {
+    return Parameter{name, "1", initial, 1e-3, 100, Scale::log, doc, source};
+  };
+  const auto product = [](const char* name, const char* doc, const char* source) {
+    return Parameter{name, "1", 0.1, -10, 100, Scale::linear, doc, source};
+  };
+  std::vector<Parameter> all{{"c", "kPa", 20, 0.01, 1e4, Scale::log, "Stiffness of the exponential.", fung_1979},
+                             square("a1", 1, "Weight of E_tt^2.", fung_1979),
+                             square("a2", 0.5, "Weight of E_zz^2.", fung_1979)};
+  if (form != Form::plane) all.push_back(square("a3", 0.1, "Weight of E_rr^2.", chuong_fung));
+  all.push_back(product("a4", "Half the weight of E_tt E_zz.", fung_1979));
+  if (form == Form::plane) return all;
+  all.push_back(product("a5", "Half the weight of E_zz E_rr.", chuong_fung));
+  all.push_back(product("a6", "Half the weight of E_rr E_tt.", chuong_fung));
+  if (form == Form::wall) return all;
+  all.push_back(square("a7", 1, "Half the weight of E_tz^2.", humphrey));
+  all.push_back(square("a8", 1, "Half the weight of E_zr^2.", humphrey));
+  all.push_back(square("a9", 1, "Half the weight of E_tr^2.", humphrey));
+  return all;
+}
 
-  static std::vector<Parameter> parameters() {
-    const auto square = [](const char* name, double initial, const char* doc, const char* source) {
-      return Parameter{name, "1", initial, 1e-3, 100, Scale::log, doc, source};
-    };
-    const auto product = [](const char* name, const char* doc, const char* source) {
-      return Parameter{name, "1", 0.1, -10, 100, Scale::linear, doc, source};
-    };
-    std::vector<Parameter> all{{"c", "kPa", 20, 0.01, 1e4, Scale::log, "Stiffness of the exponential.", fung_1979},
-                               square("a1", 1, "Weight of E_tt^2.", fung_1979),
-                               square("a2", 0.5, "Weight of E_zz^2.", fung_1979)};
-    if (!is_plane) all.push_back(square("a3", 0.1, "Weight of E_rr^2.", chuong_fung));
-    all.push_back(product("a4", "Half the weight of E_tt E_zz.", fung_1979));
-    if (is_plane) return all;
-    all.push_back(product("a5", "Half the weight of E_zz E_rr.", chuong_fung));
-    all.push_back(product("a6", "Half the weight of E_rr E_tt.", chuong_fung));
-    if (!has_shear) return all;
-    all.push_back(square("a7", 1, "Half the weight of E_tz^2.", humphrey));
-    all.push_back(square("a8", 1, "Half the weight of E_zr^2.", humphrey));
-    all.push_back(square("a9", 1, "Half the weight of E_tr^2.", humphrey));
-    return all;
+/// Coefficients by parameters, a constant matrix: a = L p.
+Eigen::MatrixXd coefficients_by(Form form) {
+  const std::vector<int> own = form == Form::plane  ? std::vector<int>{c, a1, a2, a4}
+                               : form == Form::wall ? std::vector<int>{c, a1, a2, a3, a4, a5, a6}
+                                                    : std::vector<int>{c, a1, a2, a3, a4, a5, a6, a7, a8, a9};
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(coefficients, static_cast<Eigen::Index>(own.size()));
+  for (std::size_t j = 0; j < own.size(); ++j) L(own[j], static_cast<Eigen::Index>(j)) = 1;
+  if (form == Form::wall_with_shear) return L;
+  // a7 = (a1 + a2)/2 − a4, a8 = (a2 + a3)/2 − a5, a9 = (a3 + a1)/2 − a6
+  L.row(a7) = 0.5 * (L.row(a1) + L.row(a2)) - L.row(a4);
+  L.row(a8) = 0.5 * (L.row(a2) + L.row(a3)) - L.row(a5);
+  L.row(a9) = 0.5 * (L.row(a3) + L.row(a1)) - L.row(a6);
+  return L;
+}
+
+/// Q is positive definite in the normal strains: its leading minors.
+std::vector<Combination> admissible(Form form) {
+  const bool plane = form == Form::plane;
+  const auto minor = [plane](std::span<const double> p) {
+    const double product = p[plane ? 3 : a4];
+    return p[a1] * p[a2] - product * product;
+  };
+  std::vector<Combination> all{{"a1 a2 - a4^2", "1", {a1, a2, plane ? 3u : 4u}, minor, ""}};
+  if (!plane)
+    all.push_back({"det of a1 to a6",
+                   "1",
+                   {a1, a2, a3, a4, a5, a6},
+                   [minor](std::span<const double> p) {
+                     return p[a3] * minor(p) - p[a1] * p[a5] * p[a5] - p[a2] * p[a6] * p[a6] +
+                            2 * p[a4] * p[a5] * p[a6];
+                   },
+                   ""});
+  return all;
+}
+
+class Fung final : public Model {
+ public:
+  explicit Fung(Form form) : by_(coefficients_by(form)) {
+    description_.type = "fung";
+    description_.parameters = parameters_of(form);
+    description_.principal_axes = true;
+    description_.energy_derivatives = true;
+    description_.admissible = admissible(form);
   }
 
-  /// The nine coefficients at their places above.
-  template <class T>
-  static std::array<T, all_parameters> coefficients(std::span<const T> p) {
-    std::array<T, all_parameters> a{};
-    for (std::size_t j = 0; j < parameter_count; ++j) a[j] = p[j];
-    if constexpr (is_plane) std::swap(a[a3], a[a4]);
-    if constexpr (!has_shear) {
-      a[a7] = 0.5 * (a[a1] + a[a2]) - a[a4];
-      a[a8] = 0.5 * (a[a2] + a[a3]) - a[a5];
-      a[a9] = 0.5 * (a[a3] + a[a1]) - a[a6];
+  [[nodiscard]] const ModelDescription& describe() const override { return description_; }
+
+  /// With F = KE, e = c e^Q and w = 1 for normal, 1/2 for shear components, whose C_ab stands twice in a tensor,
+  ///
+  ///   S_a = w_a e F_a,   2 ∂S_a/∂C_b = w_a w_b e (K_ab + 2 F_a F_b).
+  Status evaluate(const MaterialPoints& points, const MaterialResponse& out) const override {
+    const Material material(*this, points.parameters);
+    const std::size_t n = points.count;
+    for (std::size_t i = 0; i < n; ++i) {
+      Strain E;
+      for (Eigen::Index a = 0; a < strains; ++a) E[a] = 0.5 * (points.C[a * n + i] - (a < 3 ? 1 : 0));
+      const Strain F = material.K * E;
+      const double e = material.c * std::exp(E.dot(F));
+      if (!out.energy.empty()) out.energy[i] = 0.5 * material.c * std::expm1(E.dot(F));
+      for (Eigen::Index a = 0; !out.stress.empty() && a < strains; ++a) out.stress[a * n + i] = weight(a) * e * F[a];
+      for (Eigen::Index a = 0; !out.tangent.empty() && a < strains; ++a)
+        for (Eigen::Index b = 0; b < strains; ++b)
+          out.tangent[(6 * a + b) * n + i] = weight(a) * weight(b) * e * (material.K(a, b) + 2 * F[a] * F[b]);
+      if (out.stress_dp.empty()) continue;
+      const ByParameters S_p = material.gradient_by_parameters(E, F, e, by_);
+      for (Eigen::Index j = 0; j < S_p.cols(); ++j)
+        for (Eigen::Index a = 0; a < strains; ++a) out.stress_dp[(6 * j + a) * n + i] = weight(a) * S_p(a, j);
     }
-    return a;
+    return {};
   }
 
-  /// Q is positive definite in the normal strains: its leading minors.
-  static std::vector<Combination> admissible() {
-    const auto a = [](std::span<const double> p) { return coefficients(p); };
-    const auto minor = [a](std::span<const double> p) {
-      const auto k = a(p);
-      return k[a1] * k[a2] - k[a4] * k[a4];
-    };
-    std::vector<Combination> all{{"a1 a2 - a4^2", "1", {1, 2, is_plane ? 3u : 4u}, minor, ""}};
-    if (!is_plane)
-      all.push_back({"det of a1 to a6",
-                     "1",
-                     {a1, a2, a3, a4, a5, a6},
-                     [a, minor](std::span<const double> p) {
-                       const auto k = a(p);
-                       return k[a3] * minor(p) - k[a1] * k[a5] * k[a5] - k[a2] * k[a6] * k[a6] +
-                              2 * k[a4] * k[a5] * k[a6];
-                     },
-                     ""});
-    return all;
+  /// ∂W/∂c_a = S_aa/2, and ∂²W/∂c_a∂c_b = 2 ∂S_aa/∂c_b / 4.
+  Status evaluate_axes(const AxisPoints& points, const AxisResponse& out) const override {
+    constexpr std::array<std::pair<int, int>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+    const Material material(*this, points.parameters);
+    const std::size_t n = points.count;
+    for (std::size_t i = 0; i < n; ++i) {
+      Strain E = Strain::Zero();
+      for (Eigen::Index a = 0; a < 3; ++a) E[a] = 0.5 * (points.c[a * n + i] - 1);
+      const Strain F = material.K * E;
+      const double e = material.c * std::exp(E.dot(F));
+      if (!out.energy.empty()) out.energy[i] = 0.5 * material.c * std::expm1(E.dot(F));
+      for (Eigen::Index a = 0; !out.gradient.empty() && a < 3; ++a) out.gradient[a * n + i] = 0.5 * e * F[a];
+      for (std::size_t k = 0; !out.hessian.empty() && k < pairs.size(); ++k) {
+        const auto [a, b] = pairs[k];
+        out.hessian[k * n + i] = 0.25 * e * (material.K(a, b) + 2 * F[a] * F[b]);
+      }
+      if (!out.energy_dp.empty()) {
+        const Eigen::VectorXd W_p = material.energy_by_parameters(E, e, by_);
+        for (Eigen::Index j = 0; j < W_p.size(); ++j) out.energy_dp[j * n + i] = W_p[j];
+      }
+      if (out.gradient_dp.empty()) continue;
+      const ByParameters S_p = material.gradient_by_parameters(E, F, e, by_);
+      for (Eigen::Index j = 0; j < S_p.cols(); ++j)
+        for (Eigen::Index a = 0; a < 3; ++a) out.gradient_dp[(3 * j + a) * n + i] = 0.5 * S_p(a, j);
+    }
+    return {};
   }
 
-  /// E_tt, E_zz, E_rr, E_tz, E_zr, E_tr. At 45 degrees M·CM = (C_tt + C_zz)/2 + C_tz, and C_tt + C_zz = I1 − C_rr.
-  template <class T>
-  static std::array<InvariantOf<T>, invariant_count> invariants(std::span<const T>) {
-    const T half(0.5), quarter(0.25), t(std::numbers::pi / 2);
-    return {{{.fibre = half, .offset = -half, .angle = t},
-             {.fibre = half, .offset = -half},
-             {.normal = half, .offset = -half},
-             {.i1 = -quarter, .fibre = half, .normal = quarter, .angle = T(std::numbers::pi / 4)},
-             {.across = half},
-             {.across = half, .angle = t}}};
-  }
-  template <class T>
-  static T energy(std::span<const T> E, std::span<const T> p) {
-    using std::exp;
-    const auto a = coefficients(p);
-    T Q = a[a1] * E[0] * E[0] + a[a2] * E[1] * E[1] + 2.0 * a[a4] * E[0] * E[1];
-    if constexpr (!is_plane) Q += a[a3] * E[2] * E[2] + 2.0 * a[a5] * E[1] * E[2] + 2.0 * a[a6] * E[2] * E[0];
-    Q += 2.0 * (a[a7] * E[3] * E[3] + a[a8] * E[4] * E[4] + a[a9] * E[5] * E[5]);
-    return 0.5 * a[c] * (exp(Q) - 1.0);
-  }
+ private:
+  static double weight(Eigen::Index component) { return component < 3 ? 1 : 0.5; }
+
+  /// What the parameters say.
+  struct Material {
+    double c;
+    Eigen::Matrix<double, strains, strains> K = Eigen::Matrix<double, strains, strains>::Zero();
+
+    Material(const Fung& model, std::span<const double> p) {
+      const Eigen::VectorXd a = model.by_ * Eigen::Map<const Eigen::VectorXd>(p.data(), model.by_.cols());
+      c = a[Coefficient::c];
+      for (int m = a1; m < coefficients; ++m) {
+        const auto [row, column] = entry[m];
+        K(row, column) = K(column, row) = factor(m) * a[m];
+      }
+    }
+    /// ∂Q/∂a of the nine coefficients.
+    [[nodiscard]] Eigen::Matrix<double, coefficients, 1> monomials(const Strain& E) const {
+      Eigen::Matrix<double, coefficients, 1> q;
+      q[Coefficient::c] = 0;
+      for (int m = a1; m < coefficients; ++m) {
+        const auto [row, column] = entry[m];
+        q[m] = (row == column ? factor(m) : 2) * E[row] * E[column];
+      }
+      return q;
+    }
+    /// ∂W/∂c = (e^Q − 1)/2,   ∂W/∂a = e/2 ∂Q/∂a
+    [[nodiscard]] Eigen::VectorXd energy_by_parameters(const Strain& E, double e, const Eigen::MatrixXd& by) const {
+      Eigen::Matrix<double, coefficients, 1> W_a = 0.5 * e * monomials(E);
+      W_a[Coefficient::c] = 0.5 * (e / c - 1);
+      return by.transpose() * W_a;
+    }
+    /// ∂(eF)/∂c = eF/c,   ∂(eF)/∂a = e (∂K/∂a E + F ∂Q/∂a)
+    [[nodiscard]] ByParameters gradient_by_parameters(const Strain& E, const Strain& F, double e,
+                                                      const Eigen::MatrixXd& by) const {
+      Eigen::Matrix<double, strains, coefficients> D = e * F * monomials(E).transpose();
+      D.col(Coefficient::c) = e / c * F;
+      for (int m = a1; m < coefficients; ++m) {
+        const auto [row, column] = entry[m];
+        D(row, m) += e * factor(m) * E[column];
+        if (row != column) D(column, m) += e * E[row];
+      }
+      return D * by;
+    }
+  };
+
+  ModelDescription description_;
+  Eigen::MatrixXd by_;  ///< L
 };
 
 }  // namespace
 
 TUNICA_PLUGIN("fung", TUNICA_PLUGIN_VERSION) {
-  using Plane = Fung<Form::plane>;
   const Option choice = Option::choice(
       "form", {"plane", "wall", "wall_with_shear"}, "plane",
       "Strains with parameters: in the plane (a1, a2, a4), radial ones too (to a6), all with shear (to a9).");
   const auto create = [](const Options& options) -> std::unique_ptr<Model> {
     const std::string& form = options.text("form");
-    if (form == "wall") return std::make_unique<JointEnergy<Fung<Form::wall>>>();
-    if (form == "wall_with_shear") return std::make_unique<JointEnergy<Fung<Form::wall_with_shear>>>();
-    return std::make_unique<JointEnergy<Plane>>();
+    return std::make_unique<Fung>(form == "wall"              ? Form::wall
+                                  : form == "wall_with_shear" ? Form::wall_with_shear
+                                                              : Form::plane);
   };
-  registry.add(ModelFactory{Plane::type, Plane::doc, Plane::reference, {choice}, create});
+  registry.add(ModelFactory{
+      "fung", "Artery wall, an exponential of a quadratic form in Green strains.", fung_1979, {choice}, create});
 }
