@@ -284,5 +284,24 @@ TEST_F(EarlyEndOfEvaluations, TheNeighbourhoodSimulatesWhatMayBeTheLowest) {
   EXPECT_LT(fewer.simulated, fewer.evaluated / 2);
 }
 
+/// A deadline that is past when the neighbourhood is asked for: the point is evaluated, no neighbour is, and both are
+/// counted.
+TEST_F(EarlyEndOfEvaluations, TheNeighbourhoodLeavesOutWhatTimeIsOverFor) {
+  const std::vector<double> x{0, 1, 2}, y{3, 4, 5}, free{3, 1, 0};
+  for (const char* type : {"curve", "costly_curve"}) {
+    Bench bench;
+    bench.add_test("one", x, y).type = type;
+    const auto all = search::probe_neighbourhood(bench.assemble(), free);
+    const auto late = search::probe_neighbourhood(bench.assemble(), free, plugins::Clock::now());
+    EXPECT_TRUE(late.status.ok());
+    EXPECT_EQ(late.objective, all.objective);
+    EXPECT_EQ(all.left_out, 0U);
+    EXPECT_GT(all.evaluated, 0U);
+    EXPECT_EQ(late.evaluated + late.failed, 0U);
+    EXPECT_GT(late.left_out, 0U);
+    EXPECT_FALSE(late.lowest || late.better);
+  }
+}
+
 }  // namespace
 }  // namespace tunica

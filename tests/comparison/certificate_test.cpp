@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/certify.hpp"
+#include "comparison/estimate.hpp"
 #include "comparison/result_json.hpp"
 #include "execution/folder.hpp"
 #include "execution/laboratory.hpp"
@@ -96,6 +97,44 @@ TEST(Certificate, SaysWhatSpeaksAgainstIt) {
   certificate.fresh.reset();
   certificate.missing = "it ended with code 4";
   EXPECT_THAT(sentence(certificate), HasSubstr("not evaluated again in a fresh process (it ended with code 4)"));
+}
+
+TEST(Certificate, SaysWhatMaxTimeLeftOut) {
+  auto certificate = spotless();
+  certificate.fresh->around.evaluated = 5;
+  certificate.fresh->around.left_out = 7;
+  EXPECT_THAT(sentence(certificate), HasSubstr("; no better neighbour (max_time left out 7 of 12);"));
+  EXPECT_EQ(verdict(certificate), CertificateVerdict::no_neighbours);
+  certificate.fresh->around.lowest.reset();
+  EXPECT_THAT(sentence(certificate), HasSubstr("; no neighbour could be compared (max_time left out 7 of 12);"));
+}
+
+// What the point itself says is there at any time; intervals and spread are left out, and that is said.
+TEST(Estimate, SaysWhatMaxTimeLeftOut) {
+  const Ended ended({2.2, 1, 3});
+  const auto& run = ended.plan->runs[0];
+  execution::RealisationResult best;
+  best.best.parameters = {2.2, 1, 3};
+  best.best.objective = ended.summary.runs[0].objective;
+  const execution::RunResult both{{best, best}};
+  const auto estimate = [&](plugins::Clock::time_point deadline, std::vector<execution::Warning>& warnings) {
+    comparison::RunSummary summary;
+    summary.tests = run.entry->tests;
+    comparison::estimate(*run.assembly, best, both, summary, warnings, deadline);
+    return summary;
+  };
+  std::vector<execution::Warning> none, said;
+  const auto whole = estimate(plugins::Clock::time_point::max(), none), late = estimate(plugins::Clock::now(), said);
+  EXPECT_TRUE(none.empty());
+  EXPECT_TRUE(whole.parameters[0].assessed);
+  EXPECT_FALSE(whole.curve_lowest.empty());
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_THAT(said[0].text(), HasSubstr("there are no confidence intervals: max_time was over"));
+  EXPECT_FALSE(late.parameters[0].assessed);
+  EXPECT_TRUE(late.curve_lowest.empty() && late.curve_highest.empty());
+  EXPECT_THAT(late.notes, ::testing::Contains(HasSubstr("the curves of all realisations are left out")));
+  EXPECT_TRUE(late.status.ok());
+  EXPECT_EQ(late.quality.size(), whole.quality.size());
 }
 
 TEST(Certificate, HasACodeForEveryFinding) {

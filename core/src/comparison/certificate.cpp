@@ -34,7 +34,7 @@ CertificateVerdict verdict_on(const Certificate& certificate) {
   if (!search::same_objective(around.objective, around.objective - certificate.fresh->difference))
     return CertificateVerdict::objective_differs;
   if (!around.status.ok()) return CertificateVerdict::constraint_broken;
-  if (!around.lowest) return CertificateVerdict::no_neighbours;
+  if (!around.lowest || (!around.better && around.left_out > 0)) return CertificateVerdict::no_neighbours;
   if (!around.better) return CertificateVerdict::confirmed;
   if (leads_down(certificate)) return CertificateVerdict::not_an_optimum;
   return share_of_drop(around) > not_an_optimum ? CertificateVerdict::ended_at_target
@@ -55,8 +55,11 @@ std::string fresh_words(const Certificate& certificate) {
 
 std::string neighbour_words(const Certificate& certificate) {
   const auto& around = certificate.fresh->around;
-  if (!around.lowest) return "no neighbour could be compared";
-  if (!around.better) return "no better neighbour";
+  const std::string left_out = around.left_out > 0 ? fmt::format(" (max_time left out {} of {})", around.left_out,
+                                                                 around.evaluated + around.left_out)
+                                                   : "";
+  if (!around.lowest) return "no neighbour could be compared" + left_out;
+  if (!around.better) return "no better neighbour" + left_out;
   const double share = share_of_drop(around);
   const char* const finding = share <= not_an_optimum       ? ""
                               : certificate.ended_at_target ? "stopped at its target, not at the optimum: "

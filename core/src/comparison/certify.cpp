@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/ranking.hpp"
+#include "plugins/limited_work.hpp"
 #include "text/escaped.hpp"
 #include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
@@ -36,6 +37,7 @@ json to_json(const search::Neighbourhood& around) {
           {"evaluated", around.evaluated},
           {"infeasible", around.infeasible},
           {"failed", around.failed},
+          {"left_out", around.left_out},
           {"lowest", std::move(lowest)},
           {"better", around.better},
           {"constraints", around.constraints},
@@ -51,6 +53,7 @@ search::Neighbourhood from_json(const json& around) {
   result.evaluated = around.at("evaluated");
   result.infeasible = around.at("infeasible");
   result.failed = around.at("failed");
+  result.left_out = around.at("left_out");
   if (const auto& lowest = around.at("lowest"); !lowest.is_null())
     result.lowest = {lowest.at("objective"), lowest.at("step"), lowest.at("along"), lowest.at("parameters")};
   result.better = around.at("better");
@@ -75,10 +78,12 @@ const json& run_named(const json& result, const std::string& label) {
 /// A local search from the lowest point that is known, where that is cheap. Where it comes lower by more than searches
 /// resolve, its end is the lowest.
 void refine(const assembly::Assembly& assembly, const plugins::Catalogue& catalogue, const std::vector<double>& free,
-            search::Neighbourhood& around) {
+            const plugins::LimitedWork& work, search::Neighbourhood& around) {
   constexpr double resolved = 1e-6;  // of the objective
   const auto found = catalogue.optimizers().find("ceres_lm");
-  if (found == catalogue.optimizers().end() || !around.status.ok() || assembly.layout().has_costly_tests) return;
+  if (found == catalogue.optimizers().end() || !around.status.ok() || assembly.layout().has_costly_tests ||
+      work.is_over())
+    return;
   Options options;
   for (const auto& option : found->second.factory.options)
     if (option.fallback) options.set(option.name, *option.fallback);
@@ -86,8 +91,9 @@ void refine(const assembly::Assembly& assembly, const plugins::Catalogue& catalo
   uncertainty::RefitObjective target;
   target.residual_count = assembly.layout().residual_count;
   target.blocks = assembly.layout().blocks;
-  target.evaluate = [&assembly](std::span<const double> at, double& objective, std::span<double> residuals,
-                                std::span<double> jacobian, assembly::Workspace& own) {
+  target.evaluate = [&](std::span<const double> at, double& objective, std::span<double> residuals,
+                        std::span<double> jacobian, assembly::Workspace& own) {
+    if (work.is_over()) return Status::failed("max_time was over");
     return assembly.evaluator().evaluate(at, objective, {}, residuals, jacobian, own);
   };
   const auto workspace = assembly.evaluator().make_workspace();
@@ -156,8 +162,9 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
           refuse(fmt::format("run '{}' has no parameter '{}'", planned.label, parameter.name));
         free.push_back(values.at(parameter.name).at("value"));
       }
-      auto around = search::probe_neighbourhood(*planned.assembly, free);
-      if (catalogue) refine(*planned.assembly, *catalogue, free, around);
+      const auto deadline = plugins::deadline_after(planned.entry->stop.max_time);
+      auto around = search::probe_neighbourhood(*planned.assembly, free, deadline);
+      if (catalogue) refine(*planned.assembly, *catalogue, free, plugins::LimitedWork("refinement", deadline), around);
       json entry = to_json(around);
       const double recorded = run.at("best").at("objective"), now = entry.at("objective");
       entry["run"] = planned.label;

@@ -8,6 +8,7 @@
 
 #include "assembly/quality.hpp"
 #include "comparison/hold_out.hpp"
+#include "plugins/limited_work.hpp"
 #include "uncertainty/identifiability.hpp"
 
 namespace tunica::comparison {
@@ -85,10 +86,19 @@ void add_covariance(const assembly::Assembly& assembly, const std::vector<double
 
 /// Intervals from the noise of the data where they fix a parameter, and in words what they do not.
 void add_identifiability(const assembly::Assembly& assembly, const execution::RealisationResult& best,
-                         RunSummary& summary, std::vector<execution::Warning>& warnings) {
+                         const plugins::LimitedWork& work, RunSummary& summary,
+                         std::vector<execution::Warning>& warnings) {
   if (summary.status.kind() == Status::Kind::infeasible) return;  // nobody asks this of a point that is not allowed
   uncertainty::Identifiability found;
-  const Status status = uncertainty::identify(assembly, best.best.parameters, found);
+  const Status status = work.is_over() ? Status::failed("max_time was over")
+                                       : uncertainty::identify(assembly, best.best.parameters, found);
+  if (!status.ok() && work.is_over()) {
+    warnings.push_back({WarningKind::not_linearised,
+                        "there are no confidence intervals: max_time was over, which the work on the best point may "
+                        "take once more. Raise \"max_time\" in \"stop\"",
+                        summary.label});
+    return;
+  }
   if (!status.ok()) {
     warnings.push_back(
         {WarningKind::not_linearised,
@@ -166,13 +176,20 @@ void add_noise(const assembly::Assembly& assembly, RunSummary& summary) {
 }
 
 /// How far apart the curves of several realisations lie: one evaluation each, nothing beside the search.
-void add_spread(const assembly::Assembly& assembly, const execution::RunResult& all, RunSummary& summary) {
+void add_spread(const assembly::Assembly& assembly, const execution::RunResult& all, const plugins::LimitedWork& work,
+                RunSummary& summary) {
   if (all.realisations.size() < 2) return;
   std::vector<double> predictions(assembly.layout().prediction_count);
   auto workspace = assembly.evaluator().make_workspace();
   std::size_t seen = 0;
   for (const auto& realisation : all.realisations) {
     if (!realisation.best.feasible()) continue;
+    if (work.is_over()) {  // of some of them it would look narrower than it is
+      summary.curve_lowest.clear();
+      summary.curve_highest.clear();
+      summary.notes.emplace_back("the curves of all realisations are left out: max_time was over");
+      return;
+    }
     if (!assembly.evaluator().predict(realisation.best.parameters, predictions, {}, *workspace).ok()) continue;
     if (seen++ == 0) summary.curve_lowest = summary.curve_highest = predictions;
     for (std::size_t i = 0; i < predictions.size(); ++i) {
@@ -185,13 +202,17 @@ void add_spread(const assembly::Assembly& assembly, const execution::RunResult& 
 }  // namespace
 
 void estimate(const assembly::Assembly& assembly, const execution::RealisationResult& best,
-              const execution::RunResult& all, RunSummary& summary, std::vector<execution::Warning>& warnings) {
+              const execution::RunResult& all, RunSummary& summary, std::vector<execution::Warning>& warnings,
+              plugins::Clock::time_point deadline) {
   evaluate_again(assembly, best, summary, warnings);
   add_parameters(assembly, best, all, summary);
-  add_identifiability(assembly, best, summary, warnings);
   add_quality(assembly, best, summary);
   add_noise(assembly, summary);
-  add_spread(assembly, all, summary);
+  {
+    const plugins::LimitedWork work("summary", deadline);
+    add_identifiability(assembly, best, work, summary, warnings);
+    add_spread(assembly, all, work, summary);
+  }
   if (!summary.status.ok()) return;
   if (auto warning = transfer_warning(summary.label, summary.quality)) warnings.push_back(std::move(*warning));
 }

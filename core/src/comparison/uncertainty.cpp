@@ -2,7 +2,6 @@
 #include "comparison/uncertainty.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -11,7 +10,7 @@
 #include "comparison/uncertainty_tables.hpp"
 #include "comparison/uncertainty_words.hpp"
 #include "data/nearest.hpp"
-#include "plugins/calls.hpp"
+#include "plugins/limited_work.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 #include "uncertainty/bootstrap.hpp"
@@ -132,24 +131,18 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
     for (const auto& parameter : own.parameters) best.push_back(parameter.value);
     const std::uint64_t seed = derive_seed(run.seed, "analysis");
     const std::optional<double> max_time = run.entry->stop.max_time;
-    const plugins::Call whole{nullptr, "analysis", nullptr, nullptr,
-                              max_time
-                                  ? plugins::Clock::now() + std::chrono::duration_cast<plugins::Clock::duration>(
-                                                                std::chrono::duration<double>(std::min(*max_time, 1e9)))
-                                  : plugins::Clock::time_point::max()};
-    const plugins::CallScope scope(whole);
-    const auto is_over = [&] { return plugins::Clock::now() >= whole.deadline; };
+    const plugins::LimitedWork work("analysis", plugins::deadline_after(max_time));
     if (const auto indices = wanted(analysis, assembly); !indices.empty()) {
       if (told) told("profiles of " + own.label);
       const auto likelihood = uncertainty::likelihood_at(assembly, best, optimizer, seed);
-      if (is_over()) {
+      if (work.is_over()) {
         say_left_out("no profiles", *max_time, own);
       } else if (!likelihood.centre.status.ok()) {
         own.uncertainty.push_back(
             fmt::format("no profiles: the best point cannot be refitted: {}", likelihood.centre.status.reason()));
       } else {
         auto made = uncertainty::profiles(assembly, likelihood, optimizer, indices, seed, interrupted);
-        if (is_over()) {  // ends that were not reached are no ends
+        if (work.is_over()) {  // ends that were not reached are no ends
           say_left_out("no profiles", *max_time, own);
         } else {
           keep(made, own);
@@ -158,13 +151,13 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
         }
       }
     }
-    if (analysis.bootstrap_draws > 0 && is_over()) {
+    if (analysis.bootstrap_draws > 0 && work.is_over()) {
       say_left_out("no bootstrap", *max_time, own);
     } else if (analysis.bootstrap_draws > 0) {
       if (told) told("bootstrap of " + own.label);
       auto made = uncertainty::bootstrap(assembly, best, optimizer, analysis.bootstrap_draws, seed, interrupted);
       const std::size_t found = made.draws.size();
-      const bool cut = is_over() && found < analysis.bootstrap_draws;
+      const bool cut = work.is_over() && found < analysis.bootstrap_draws;
       if (cut)
         say_left_out(fmt::format("{} of {} draws of the bootstrap", found, analysis.bootstrap_draws), *max_time, own);
       if (!cut || found > 0) {

@@ -9,6 +9,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "numerics/eigenpairs.hpp"
+#include "plugins/limited_work.hpp"
 #include "search/early_end.hpp"
 
 namespace tunica::search {
@@ -27,6 +28,7 @@ struct Neighbour {
   std::vector<double> free;
   Status status;
   double objective = 0;
+  bool left_out = false;  ///< for time was over
   bool simulated = true;  ///< false: the objective is a lower bound, and another neighbour is lower
 };
 
@@ -82,10 +84,15 @@ std::vector<Neighbour> neighbours_of(const assembly::Assembly& assembly, std::sp
 
 /// Side by side. Only the lowest counts: where its cheap tests put a neighbour above another one, and where it is
 /// infeasible, costly tests are left out.
-void evaluate_neighbours(const assembly::Assembly& assembly, std::vector<Neighbour>& neighbours) {
+void evaluate_neighbours(const assembly::Assembly& assembly, std::vector<Neighbour>& neighbours,
+                         plugins::Clock::time_point deadline) {
   const auto evaluate = [&](Neighbour& neighbour, assembly::CostlyTests costly) {
+    const plugins::LimitedWork work("neighbours", deadline);
+    neighbour.left_out = work.is_over();
+    if (neighbour.left_out) return;
     const auto own = assembly.evaluator().make_workspace();
     neighbour.status = assembly.evaluator().evaluate(neighbour.free, neighbour.objective, {}, {}, {}, *own, costly);
+    neighbour.left_out = !neighbour.status.ok() && work.is_over();  // it was not waited for
   };
   const bool costly = assembly.layout().has_costly_tests;
   tbb::parallel_for(std::size_t{0}, neighbours.size(), [&](std::size_t k) {
@@ -95,7 +102,7 @@ void evaluate_neighbours(const assembly::Assembly& assembly, std::vector<Neighbo
   if (!costly) return;
   EarlyEnd early;
   for (std::size_t k = 0; k < neighbours.size(); ++k)
-    if (neighbours[k].status.ok()) early.add(k, neighbours[k].objective);
+    if (neighbours[k].status.ok() && !neighbours[k].left_out) early.add(k, neighbours[k].objective);
   early.begin(1);
   const auto workers = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   tbb::parallel_for(std::size_t{0}, std::min(workers, early.size()), [&](std::size_t) {
@@ -103,7 +110,8 @@ void evaluate_neighbours(const assembly::Assembly& assembly, std::vector<Neighbo
       Neighbour& neighbour = neighbours[taken->point];
       evaluate(neighbour, assembly::CostlyTests::everywhere);
       neighbour.simulated = true;
-      early.found(*taken, neighbour.status.ok() ? std::optional(neighbour.objective) : std::nullopt);
+      early.found(*taken,
+                  neighbour.status.ok() && !neighbour.left_out ? std::optional(neighbour.objective) : std::nullopt);
     }
   });
   for (const std::size_t k : early.left()) {  // taken needlessly or not at all: it is not the lowest
@@ -116,7 +124,8 @@ void evaluate_neighbours(const assembly::Assembly& assembly, std::vector<Neighbo
 
 bool same_objective(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b) + 1e-12; }
 
-Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<const double> free) {
+Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<const double> free,
+                                  plugins::Clock::time_point deadline) {
   const std::size_t n = free.size();
   Neighbourhood result;
   const auto workspace = assembly.evaluator().make_workspace();
@@ -133,10 +142,17 @@ Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<
     directions.push_back({assembly.layout().parameters[j].name, std::vector<double>(n, 0.0)});
     directions.back().v[j] = 1;
   }
-  if (n > 1) add_principal_directions(assembly, free, directions);
+  if (n > 1 && plugins::Clock::now() < deadline) {
+    const plugins::LimitedWork work("neighbours", deadline);
+    add_principal_directions(assembly, free, directions);
+  }
   auto neighbours = neighbours_of(assembly, free, directions);
-  evaluate_neighbours(assembly, neighbours);
+  evaluate_neighbours(assembly, neighbours, deadline);
   for (auto& neighbour : neighbours) {
+    if (neighbour.left_out) {
+      ++result.left_out;
+      continue;
+    }
     ++result.evaluated;
     result.simulated += neighbour.simulated;
     result.infeasible += neighbour.status.kind() == Status::Kind::infeasible;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "plugins/calls.hpp"
 #include "tunica/status.hpp"
 
 namespace tunica::search {
@@ -24,6 +25,7 @@ struct Neighbourhood {
   double objective = 0;  ///< of the point itself, evaluated here
   std::size_t evaluated = 0, infeasible = 0, failed = 0;
   std::size_t simulated = 0;     ///< of the evaluated ones, in full: cheap tests settle the others, see early_end.hpp
+  std::size_t left_out = 0;      ///< not evaluated, for time was over
   std::optional<Lowest> lowest;  ///< none when no neighbour could be evaluated and is feasible
   bool better = false;           ///< the lowest is below the point by more than rounding
   std::size_t constraints = 0, active_constraints = 0;  ///< values c(p), and those above −active_margin
@@ -39,7 +41,9 @@ bool same_objective(double a, double b);
 /// Evaluates the point, and its neighbours at ± the steps above along every parameter and along the eigenvectors of JᵀJ
 /// in the unit box, J the Jacobian of the residuals as the objective weighs them. These span the long and the short
 /// axes of the valley that the point lies in: an optimiser that stopped half-way down a bent one is found out along
-/// them. Neighbours outside the bounds are moved onto them; what breaks a constraint does not count.
-Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<const double> free);
+/// them. Neighbours outside the bounds are moved onto them; what breaks a constraint does not count. The point itself
+/// is evaluated whatever it takes; at the deadline neighbours are left out.
+Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<const double> free,
+                                  plugins::Clock::time_point deadline = plugins::Clock::time_point::max());
 
 }  // namespace tunica::search
