@@ -140,7 +140,7 @@ void print_initial_point(const calibration::PosedProblem& problem) {
   const auto& initial = problem.initial;
   if (!initial.not_run.empty()) {
     answer("{}\n", hanging("  the initial point is not evaluated: ",
-                           initial.not_run + ". --run-external runs it, as `tunica run` does"));
+                           initial.not_run + ". --run-external does so, as `tunica run` does"));
     return;
   }
   if (initial.status.kind() == Status::Kind::failed) {
@@ -220,7 +220,8 @@ void write_data_page(const experiment::Experiment& experiment, const plugins::Ca
 int check(const GlobalOptions& global, const std::string& file, bool as_json, const std::string& page,
           bool run_external) {
   const Session session(global);
-  const auto experiment = session.read(file, experiment::Purpose::prediction);
+  const auto read = session.read(file, experiment::Purpose::prediction);
+  const auto experiment = run_external ? read : calibration::offline(read);
   if (!page.empty()) write_data_page(experiment, session.catalogue(), page);
   const auto checked =
       calibration::examine(experiment, session.catalogue(), run_external,
@@ -245,7 +246,7 @@ void add_check(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_flag("--json", *as_json, "Print one JSON object; `in_order` says whether the exit code is 0");
   verb->add_option("--page", *page, "Write a page that draws the data as they were understood")->type_name("FILE");
   verb->add_flag("--run-external", *run_external,
-                 "Run the programs that the file names in \"command\" too; without it they are shown and not started");
+                 "Run the programs, and ask the servers, that the file names; without it they are shown only");
   verb->footer(
       "Examples:\n  tunica check experiment.json\n  tunica check experiment.json --plugin-path my_plugins\n"
       "  tunica check experiment.json --json | jq '.problems[].initial.identifiability'\n"

@@ -55,6 +55,36 @@ def close(a, b, tolerance):
 
 data = {"file": "strip.csv", "columns": {"stretch": "stretch", "stress": "stress"}, "stress_measure": "cauchy",
         "noise": {"absolute": "0.2 kPa"}}
+
+# `check` shows the address that a file names, and asks nobody there, unless it is told to.
+with socket.create_server(("127.0.0.1", 0)) as listener:
+    listener.setblocking(False)
+    address = f"http://127.0.0.1:{listener.getsockname()[1]}"
+    write("foreign", {"type": "um_bridge", "url": address, "inputs": [["mu"]], "time_limit": 0.2,
+                      "outputs": {"stress": {"output": 0, "unit": "kPa"}}, "data": data})
+
+    def asked():
+        try:
+            listener.accept()[0].close()
+            return True
+        except BlockingIOError:
+            return False
+    for options in ((), ("--json",)):
+        found = run("check", "foreign.json", *options)
+        said = " ".join(found.stdout.split())
+        assert found.returncode == 0 and f"test 'strip' asks the server at {address}" in said, found.stdout + found.stderr
+        assert not asked(), "check asks a server that the file names"
+    found = run("check", "foreign.json", "--run-external")
+    assert found.returncode == 2 and asked(), (found.returncode, found.stderr)
+    found = run("run", "foreign.json", "-o", "foreign")
+    assert found.returncode == 2 and asked(), (found.returncode, found.stderr)
+    write("wrong", {"type": "um_bridge", "url": address, "inputs": [["nu"]], "outputs": {"stress": {}}, "data": data})
+    found = run("check", "wrong.json")
+    assert found.returncode == 2 and "'nu'" in found.stderr and not asked(), (found.returncode, found.stderr)
+    write("wrong", {"type": "um_bridge", "url": address, "inputs": [["mu"]], "offline": True,
+                    "outputs": {"stress": {"output": 0}}, "data": data})
+    found = run("run", "wrong.json", "-o", "wrong")
+    assert found.returncode == 1 and "the server is not asked" in " ".join(found.stdout.split()), found.stdout
 write("direct", {"type": "uniaxial", "direction": "axial", "data": data})
 mu, objective, _ = best("direct")
 

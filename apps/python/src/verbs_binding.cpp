@@ -91,7 +91,8 @@ py::dict run(const Loaded& loaded, const Folder& directory, bool resume, unsigne
 
 std::string check(const Loaded& loaded, bool run_programs) {
   const py::gil_scoped_release free;
-  const auto checked = calibration::examine(loaded.experiment, *loaded.catalogue, run_programs);
+  const auto experiment = run_programs ? loaded.experiment : calibration::offline(loaded.experiment);
+  const auto checked = calibration::examine(experiment, *loaded.catalogue, run_programs);
   return app::check_json(checked).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -112,8 +112,8 @@ def run(experiment, directory=None, *, base=None, threads=None, seed=None, profi
 
 def check(experiment, *, base=None, run_external=False):
     """A dry run, as `tunica check` does it: names, units, data, bounds, the initial point and identifiability. Returns
-    a Check, a dictionary; its `in_order` says whether all is well. Writes nothing. Programs that the file names in
-    "command" are started with run_external only; without it `not_run` names them."""
+    a Check, a dictionary; its `in_order` says whether all is well. Writes nothing. Programs and servers that the file
+    names are started and asked with run_external only; without it `not_run` names them."""
     return Check(json.loads(_core.check(read(experiment, base)._loaded, run_external)))
 
 

@@ -36,11 +36,17 @@ double time_evaluation(const assembly::Assembly& assembly, const std::vector<dou
 /// Whether a test starts a program that the file names.
 bool starts_program(const experiment::TestEntry& test) { return test.options.has("command"); }
 
-/// The programs that the tests of a run start, in words; empty = none.
+/// Whether a test asks a server at an address that the file names.
+bool asks_server(const experiment::TestEntry& test) { return test.options.has("offline") && test.options.has("url"); }
+
+/// The programs that the tests of a run start, and the servers that they ask, in words; empty = none.
 std::string programs_of(const experiment::Experiment& experiment, const execution::PlannedRun& run) {
   std::string words;
   for (const std::string& name : run.entry->tests) {
     const experiment::TestEntry& test = experiment.test(name);
+    if (asks_server(test))
+      words += fmt::format("{}test '{}' asks the server at {}", words.empty() ? "" : "; ", name,
+                           text::excerpt(test.options.text("url"), 300));
     if (!starts_program(test)) continue;
     const auto command = nlohmann::json::parse(test.options.text("command"), nullptr, false);
     std::string line;
@@ -160,8 +166,15 @@ Examination examine(const experiment::Experiment& experiment, const plugins::Cat
   return found;
 }
 
+experiment::Experiment offline(experiment::Experiment experiment) {
+  for (experiment::TestEntry& test : experiment.tests)
+    if (asks_server(test)) test.options.set("offline", true);
+  return experiment;
+}
+
 std::string check_command(const experiment::Experiment& experiment, const std::string& file) {
-  const bool starts = std::any_of(experiment.tests.begin(), experiment.tests.end(), starts_program);
+  const bool starts = std::any_of(experiment.tests.begin(), experiment.tests.end(),
+                                  [](const auto& test) { return starts_program(test) || asks_server(test); });
   std::vector<std::string> words{"tunica", "check", file};
   if (starts) words.emplace_back("--run-external");
   return text::quoted(words);

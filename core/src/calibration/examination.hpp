@@ -31,7 +31,8 @@ struct InitialPoint {
   std::vector<OtherMeans> other_means;
   bool analysed = false;               ///< false: the linearisation could not be made
   std::vector<std::string> sentences;  ///< what the data do not fix
-  std::string not_run;                 ///< "test 'strip' runs ccx strip": why nothing was evaluated; empty = it was
+  /// "test 'strip' runs ccx strip": why nothing was evaluated; empty = it was.
+  std::string not_run;
 
   [[nodiscard]] bool good() const;
 };
@@ -72,13 +73,16 @@ struct Examination {
 };
 
 /// A dry run: plans, and evaluates every problem once at its initial point. Where a test of the problem starts a
-/// program that the file names, with its option "command", that is left out unless `run_programs`: the file may be
-/// somebody else's. `told`, if any, hears what is about to take long. Throws InputError where experiment, data or
-/// analysis do not fit.
+/// program that the file names, with its option "command", or asks a server, that is left out unless `run_programs`:
+/// the file may be somebody else's. `told`, if any, hears what is about to take long. Throws InputError where
+/// experiment, data or analysis do not fit.
 Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                     bool run_programs = false, const std::function<void(const std::string&)>& told = {});
 
-/// "tunica check FILE", and the option that it needs to evaluate a test that starts a program.
+/// The experiment with the option "offline" of every test that has it set: making such a test asks no server.
+experiment::Experiment offline(experiment::Experiment experiment);
+
+/// "tunica check FILE", and the option that it needs to evaluate a test that starts a program or asks a server.
 std::string check_command(const experiment::Experiment& experiment, const std::string& file);
 
 }  // namespace tunica::calibration

@@ -46,6 +46,22 @@ class Served final : public Test {
     rows_.channels = setup.rows.channels;
     rows_.time = time_;
     description_.costly = true;
+    const Json inputs = Json::parse(setup.options.text("inputs")), outputs = Json::parse(setup.options.text("outputs"));
+    offline_ = setup.options.flag("offline");
+    if (offline_)
+      take_for_granted(inputs, outputs);
+    else
+      ask(setup);
+    read_inputs(inputs);
+    read_outputs(outputs, setup);
+    if (!exact_)
+      description_.differencing = {
+          setup.options.number("difference_step"), setup.options.text("derivatives") == "central",
+          setup.options.text("derivatives") != "forward" && setup.options.text("derivatives") != "central"};
+  }
+
+ private:
+  void ask(const TestSetup& setup) {
     try {
       connection_.greet();
       input_sizes_ = connection_.input_sizes();
@@ -54,14 +70,26 @@ class Served final : public Test {
     } catch (const std::exception& problem) {
       throw InputError(problem.what());
     }
-    read_inputs(Json::parse(setup.options.text("inputs")));
-    read_outputs(Json::parse(setup.options.text("outputs")), setup);
-    if (!exact_)
-      description_.differencing = {
-          setup.options.number("difference_step"), setup.options.text("derivatives") == "central",
-          setup.options.text("derivatives") != "forward" && setup.options.text("derivatives") != "central"};
   }
 
+  /// Sizes as the file has them, where no server is asked.
+  void take_for_granted(const Json& inputs, const Json& outputs) {
+    for (const Json& list : inputs) input_sizes_.push_back(list.size());
+    for (const Json& entry : outputs) {
+      if (!entry.is_object()) continue;
+      const auto place = [&](const char* key) {
+        const auto found = entry.find(key);
+        return found != entry.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
+      };
+      constexpr std::size_t most = 10'000'000;  // numbers, as an answer may have
+      const std::size_t vector = place("output"), first = place("first");
+      if (vector >= most || first >= most) continue;
+      output_sizes_.resize(std::max(output_sizes_.size(), vector + 1));
+      output_sizes_[vector] = std::max(output_sizes_[vector], first + rows_.count);
+    }
+  }
+
+ public:
   [[nodiscard]] const TestDescription& describe() const override { return description_; }
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
   [[nodiscard]] std::vector<Effort> efforts() const override {
@@ -71,6 +99,7 @@ class Served final : public Test {
   Status predict(const TestInput& input, const TestOutput& output) const override {
     if (!output.abscissa_derivative.empty() || !input.abscissae.empty())
       return Status::failed("um_bridge: the server knows no other abscissae than its own");
+    if (offline_) return Status::failed("um_bridge: \"offline\" is true, and the server is not asked");
     try {
       const Vectors at = filled_in(input);
       if (!output.values.empty()) {
@@ -227,7 +256,7 @@ class Served final : public Test {
   std::vector<std::size_t> input_sizes_, output_sizes_;
   std::vector<Input> inputs_;
   std::vector<Output> outputs_;
-  bool exact_ = false;
+  bool exact_ = false, offline_ = false;
   std::vector<std::vector<double>> columns_;
   std::vector<double> time_;
   TestRows rows_;
@@ -255,6 +284,8 @@ std::vector<Option> options() {
       Option::choice("derivatives", {"server", "broyden", "forward", "central"}, "server",
                      "Actions of the server's Jacobian, where it has them; else differences as 'broyden'."),
       Option::number("difference_step", 1e-4, {1e-8, 0.1}, "Relative step of the differences."),
+      {"offline", Option::Kind::flag, false,
+       "Ask no server, and take its sizes from inputs and outputs: nothing can be evaluated, and the rest be checked."},
   };
 }
 
