@@ -268,8 +268,10 @@ def ask(url, parameter):
 
 
 def a_server_outlives_its_plugins():
-    for how in ("segfaults", "aborts", "exits_at_once", "loops"):
+    for how in ("segfaults", "aborts", "exits_at_once", "loops", "allocates_without_end"):
         folder, tunica = laboratory(f"serve_{how}", how, since=700)
+        if how == "allocates_without_end":
+            tunica.words += ["--memory-limit", "0.4"]
         server = tunica.start("serve", "experiment.json", "--port", "0")
         url = server.stdout.readline().strip()
         status, before = ask(url, 12)
