@@ -72,11 +72,12 @@ class Case:
     def stresses(self, test: str) -> typing.List[str]:
         return [name for name in self.tables[test] if name.startswith("stress")]
 
-    def write(self, folder: pathlib.Path) -> None:
+    def write(self, folder: pathlib.Path, share: float = NOISE) -> None:
+        """`share`: noise, of the range of every channel."""
         folder.mkdir(parents=True, exist_ok=True)
         for name, table in self.tables.items():
             for channel, noise in self.tests[name]["data"]["noise"].items():
-                noise["absolute"] = NOISE * float(np.ptp(table[channel]))
+                noise["absolute"] = share * float(np.ptp(table[channel]))
                 table[channel] = table[channel] + noise["absolute"] * self.random.standard_normal(len(table[channel]))
             units = {column: UNITS.get(column, "kPa" if "stress" in column else "-") for column in table}
             lines = [",".join(f"{column} [{units[column]}]" for column in table)]

@@ -5,13 +5,15 @@
 
 Without --data, TUNICA_DATA_DIR/real_causes is taken; examples are always there. Each pair is diagnosed with the noise
 stated and, where the file has an "unstated" one beside it or states noise, without. A name is right where the leading
-cause is one that the experiment says, a tie where all that it lists are. Prints a table in Markdown, with the sentence.
+cause is one that the experiment says, a tie where all that it lists are. Prints a table in Markdown, with the sentence
+and the seconds of processor time in user mode.
 """
 
 import argparse
 import json
 import os
 import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
@@ -73,10 +75,12 @@ def diagnosed(program, experiment, quick, folder):
     path = folder / "experiment.json"
     path.write_text(json.dumps(experiment))
     command = [program, "diagnose", str(path), "-o", str(folder / "out"), "--quiet"] + (["--quick"] if quick else [])
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     done = subprocess.run(command, capture_output=True, text=True, check=False)
+    seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
     if done.returncode != 0:
-        return None, done.stdout + done.stderr
-    return json.loads((folder / "out" / "result.json").read_text()), done.stdout
+        return None, done.stdout + done.stderr, seconds
+    return json.loads((folder / "out" / "result.json").read_text()), done.stdout, seconds
 
 
 def main():
@@ -96,21 +100,21 @@ def main():
         file = HERE.parent.parent / "examples" / name / "experiment.json"
         pairs.append((f"{name}, stated", file, False, truth))
         pairs.append((f"{name}, unstated", file, True, truth))
-    counts = {}
-    print("| pair | verdict | says | judged | misfit → rest |\n|---|---|---|---|---|")
+    counts, longest = {}, (0.0, "")
+    print("| pair | verdict | says | judged | misfit → rest | CPU |\n|---|---|---|---|---|---|")
     for name, file, bare, truth in pairs:
         if not name.startswith(options.only):
             continue
         if not file.exists():
-            print(f"| {name} | – | {file} is not there | skipped | |")
+            print(f"| {name} | – | {file} is not there | skipped | | |")
             continue
         lines = [line for line in file.read_text().splitlines() if not line.lstrip().startswith("//")]
         experiment = absolute_paths(json.loads("\n".join(lines)), file.parent.resolve())
         with tempfile.TemporaryDirectory() as folder:
-            result, words = diagnosed(options.program, without_noise(experiment) if bare else experiment,
+            result, words, seconds = diagnosed(options.program, without_noise(experiment) if bare else experiment,
                                       not options.full, pathlib.Path(folder))
         if result is None:
-            print(f"| {name} | failed | {words.strip().splitlines()[-1]} | failed | |")
+            print(f"| {name} | failed | {words.strip().splitlines()[-1]} | failed | | |")
             counts["failed"] = counts.get("failed", 0) + 1
             continue
         diagnosis = result["diagnosis"]
@@ -119,11 +123,13 @@ def main():
         budget = diagnosis["budget"]
         rest = budget["steps"][-1]["rms"] if budget["steps"] else budget["rms"]
         print(f'| {name} | {diagnosis["verdict"]} | {(diagnosis["reasons"] or ["–"])[0]} | {judgement} | '
-              f'{100 * budget["rms"]:.2g} → {100 * rest:.2g} % |', flush=True)
+              f'{100 * budget["rms"]:.2g} → {100 * rest:.2g} % | {seconds:.1f} s |', flush=True)
+        longest = max(longest, (seconds, name))
     total = sum(counts.values())
     print()
     for what, count in sorted(counts.items()):
         print(f"{what}: {count} of {total} ({count / total:.2f})")
+    print(f"longest: {longest[1]}, {longest[0]:.1f} s")
     return 0
 
 
