@@ -12,7 +12,7 @@
 #include "data/nearest.hpp"
 #include "data/quantities.hpp"
 #include "data/row_choice.hpp"
-#include "data/sha256.hpp"
+#include "data/table_file.hpp"
 #include "data/units.hpp"
 #include "tunica/error.hpp"
 
@@ -62,14 +62,15 @@ Grid grid_of(std::vector<double> values, const std::string& unit) {
 /// One file on its way to a series.
 class Reader {
  public:
-  Reader(const std::filesystem::path& file, const std::string& bytes, const DataRequest& request,
-         const std::vector<Observable>& observables, std::vector<std::string>& warnings)
+  Reader(const std::filesystem::path& file, const DataRequest& request, const std::vector<Observable>& observables,
+         std::vector<std::string>& warnings)
       : request_(request),
         observables_(observables),
         warnings_(warnings),
-        csv_(parse_csv(file, bytes, request.layout)) {
+        table_(table_file(file, request.layout)),
+        csv_(table_->csv) {
     series_.file = file;
-    series_.sha256 = sha256(bytes);
+    series_.sha256 = table_->sha256;
     series_.header_line = csv_.header_line;
   }
 
@@ -405,7 +406,8 @@ class Reader {
   const DataRequest& request_;
   const std::vector<Observable>& observables_;
   std::vector<std::string>& warnings_;
-  Csv csv_;
+  std::shared_ptr<const TableFile> table_;
+  const Csv& csv_;
   Series series_;
   std::vector<Quantity> quantities_;  ///< by column of the series
   std::vector<const Csv::Row*> rows_;
@@ -429,8 +431,7 @@ std::string Series::header_place(const Column& column) const {
 
 Series read_series(const std::filesystem::path& file, const DataRequest& request,
                    const std::vector<Observable>& observables, std::vector<std::string>& warnings) {
-  const std::string bytes = read_bytes(file);
-  Series series = Reader(file, bytes, request, observables, warnings).read();
+  Series series = Reader(file, request, observables, warnings).read();
   if (request.resample) resample(series, *request.resample);
   return series;
 }

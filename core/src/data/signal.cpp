@@ -34,7 +34,8 @@ std::vector<Signal> read_signals(const DataRequest& request, const std::vector<O
     std::vector<std::string> warnings;
     const Series series = read_series(file, request, observables, warnings);
     const std::set<std::size_t> used(series.used_lines.begin(), series.used_lines.end());
-    const Csv csv = parse_csv(file, read_bytes(file), request.layout);
+    const auto table = table_file(file, request.layout);
+    const Csv& csv = table->csv;
     Signal signal{file, {"line of the file", {}}, {}, {}};
     for (const Csv::Row& row : csv.rows) {
       signal.clock.values.push_back(static_cast<double>(row.line));
