@@ -115,12 +115,13 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   for (const diagnosis::Warning& warning : warnings) answer("{}\n", text::hanging("warning: ", warning.text));
   if (!warnings.empty()) answer("\n");
   const auto page = report::write_report(directory.path());
-  text::StyledText words = diagnosis::summary(found.diagnosis);
-  if (found.discovered()) words += discovery::term_summary(*found.search);
+  text::StyledText of_budget;
   if (found.budget)
-    words += found.diagnosis.analysis.alarm.raised
-                 ? budget::summary(*found.budget, found.diagnosis.request.model)
-                 : budget::same_model_line(*found.budget, found.diagnosis.request.model);
+    of_budget = found.diagnosis.analysis.alarm.raised
+                    ? budget::summary(*found.budget, found.diagnosis.request.model)
+                    : budget::same_model_line(*found.budget, found.diagnosis.request.model);
+  text::StyledText words = diagnosis::summary(found.diagnosis, of_budget);
+  if (found.discovered()) words += discovery::term_summary(*found.search);
   answer("{}\nReport:   {}\nResults:  {}\n", words.shown_on(answer_descriptor()), page.string(),
          (directory.path() / "result.json").string());
   if (found.diagnosis.explanation.mended)

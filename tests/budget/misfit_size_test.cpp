@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::DoubleNear;
 
-/// Two curves of ten rows: s from 0 to 9 kPa with σ = 0.5, t from 0 to 90 kPa with σ = 2.
+/// Two tests of one type, curves of ten rows: s from 0 to 9 kPa with σ = 0.5, t from 0 to 90 kPa with σ = 2.
 struct TwoCurves : diagnosis::HandMade {
   TwoCurves() {
     std::vector<double> x, small, large;
@@ -41,11 +41,11 @@ TEST(MisfitSize, IsWhatIsBeyondNoiseInTheUnitAndOfTheRange) {
   const auto channels = size.channels(bed.with(3, 1));
   // Ten rows of 3 σ: |r|² − ν = 90 − 10, of rms √8 σ; those of 1 σ are noise.
   EXPECT_THAT(channels[0].rms, DoubleNear(0.5 * std::sqrt(8.0), 1e-12));
-  EXPECT_THAT(channels[0].range, DoubleNear(9, 1e-12));
+  EXPECT_THAT(channels[0].range, DoubleNear(90, 1e-12)) << "that of the observable over both tests";
   EXPECT_EQ(channels[1].rms, 0);
   EXPECT_EQ(channels[1].rows, 10u);
   // In all: (Σ (σ r/range)² /|r|²/n) (|r|² − ν), with |r|² = 100 and ν = 20.
-  const double weighed = 10 * std::pow(1.5 / 9, 2) + 10 * std::pow(2.0 / 90, 2);
+  const double weighed = 10 * std::pow(1.5 / 90, 2) + 10 * std::pow(2.0 / 90, 2);
   EXPECT_THAT(size.of(bed.with(3, 1)).rms, DoubleNear(std::sqrt(weighed / 100 / 20 * 80), 1e-12));
 }
 

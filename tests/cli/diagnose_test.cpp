@@ -40,6 +40,27 @@ TEST(Diagnose, TellsItsStagesInPlainLinesWhereStderrIsAFile) {
   EXPECT_TRUE(std::filesystem::exists(bench.path("out/result.json")));
 }
 
+TEST(Diagnose, BeginsWithTheSizeThatARunSays) {
+  Diagnosed bench;
+  // The strips are softer than this matrix can be.
+  bench.experiment["models"]["gho"]["parameters"]["mu"] = {{"fixed", "30 kPa"}};
+  bench.experiment["diagnosis"] = {{"tolerance", "3 %"}};
+  auto ended = bench.tunica({"run", "experiment.json", "-o", "run"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto size = bench.result("run")["runs"][0]["best"]["misfit_size"];
+  ended = bench.tunica({"diagnose", "experiment.json", "-o", "out", "--quick"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto budget = bench.result("out")["diagnosis"]["budget"];
+  ASSERT_GT(size["rms"], 0.0995);
+  EXPECT_NEAR(size["rms"].get<double>(), budget["rms"].get<double>(), 1e-5);
+  EXPECT_NEAR(size["rms_upper"].get<double>(), budget["rms_upper"].get<double>(), 1e-5);
+  EXPECT_EQ(size["channels"].size(), 2u);
+  EXPECT_EQ(size["channels"][0]["range"], budget["channels"][0]["range"]);
+  EXPECT_NEAR(size["tolerance"].get<double>(), 0.03, 1e-12);
+  const std::string words = fmt::format("misses by {:.0f} % of the range", 100 * size["rms"].get<double>());
+  EXPECT_THAT(trial::text_of(bench.path("run/report.html")), HasSubstr(words));
+}
+
 TEST(Diagnose, LeavesNoFolderAfterAnError) {
   Diagnosed bench;
   for (const char* test : {"circ", "axial"})

@@ -5,6 +5,7 @@
 
 #include "text/csv.hpp"
 #include "text/lists.hpp"
+#include "text/misfit_words.hpp"
 #include "text/terminal.hpp"
 #include "text/units.hpp"
 
@@ -69,6 +70,15 @@ TEST(Csv, CellsActNeitherInASpreadsheetNorOnATerminal) {
 TEST(Csv, CellsReadBack) {
   for (const char* text : {"=1+1", "'=1+1", "''", "plain", "-5", "-x", "'", "", "'quoted'"})
     EXPECT_EQ(cell_text(csv_cell(text)), text);
+}
+
+TEST(MisfitWords, SayHowLargeItIsAndWhetherThatIsWithinTheTolerance) {
+  EXPECT_EQ(misses_by(0.0688), "misses by 6.9 % of the range");
+  EXPECT_EQ(misses_by(0.00236), "misses by 0.24 % of the range");
+  EXPECT_EQ(percent(0.118), "12 %");
+  EXPECT_EQ(against_tolerance(0.015, 0.02, 0.02, "stated"), "tolerance 2.0 % (stated): reached");
+  EXPECT_EQ(against_tolerance(0.019, 0.021, 0.02, "default"), "tolerance 2.0 % (default): nearly reached");
+  EXPECT_EQ(against_tolerance(0.025, 0.026, 0.02, "default"), "tolerance 2.0 % (default): not reached");
 }
 
 TEST(Terminal, WritesTimesAsClocksDo) {

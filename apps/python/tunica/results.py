@@ -156,6 +156,13 @@ class Run:
         return self.best["objective"]
 
     @property
+    def misses_by(self):
+        """Root mean square of the misfit that noise does not explain, as a share of the range of the observables; None
+        where nothing is fitted. `best["misfit_size"]` has it by test, in units, with its upper bound."""
+        size = self.best["misfit_size"]
+        return size and size["rms"]
+
+    @property
     def parameters(self):
         """{name: Estimate} of what was searched for."""
         return Named("parameter", {name: Estimate(about["value"], about)

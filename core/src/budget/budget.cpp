@@ -59,12 +59,12 @@ std::vector<std::string> ids_of(const std::vector<diagnosis::Addition>& addition
   return ids;
 }
 
-std::vector<std::string> not_looked_for(const diagnosis::Analysis& analysis) {
-  std::vector<std::string> ids;
+std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis) {
+  std::vector<Budget::Untried> ids;
   for (const diagnosis::Candidate& one : analysis.hypotheses.candidates)
     if (one.absence == diagnosis::Absence::no_clock || one.absence == diagnosis::Absence::no_past ||
         !one.without_past.empty())
-      ids.push_back(one.id);
+      ids.push_back({one.id, one.absence == diagnosis::Absence::no_clock});
   return ids;
 }
 

@@ -29,16 +29,20 @@ struct Budget {
   Size base;
   std::vector<ChannelSize> base_channels, rest_channels;  ///< rest: after the last step
   std::vector<Step> steps;
-  std::vector<Contender> contenders;  ///< largest share first; empty where the causes leave noise
-  double unlisted_probability = 0;    ///< of "no listed cause, only a smooth misfit"; of meaning with contenders
-  bool rough = false;                 ///< what is left is rougher than an unlisted misfit may be: no name is given
-  std::optional<Contender> lead;      ///< with_verdict_of() sets it where one cause leads
-  bool adequate = false;              ///< the bound of the rest is within the tolerance
-  std::string anisotropy;             ///< what the data say of directions that the base lacks; empty: nothing
-  std::string same_model;             ///< the registered model that the base with its causes is; empty: none
+  std::vector<Contender> contenders;   ///< largest share first; empty where the causes leave noise
+  double unlisted_probability = 0;     ///< of "no listed cause, only a smooth misfit"; of meaning with contenders
+  bool rough = false;                  ///< what is left is rougher than an unlisted misfit may be: no name is given
+  std::optional<Contender> lead;       ///< with_verdict_of() sets it where one cause leads
+  bool adequate = false;               ///< the bound of the rest is within the tolerance
+  std::string anisotropy;              ///< what the data say of directions that the base lacks; empty: nothing
+  std::string same_model;              ///< the registered model that the base with its causes is; empty: none
   std::vector<std::string> same_with;  ///< those causes
-  std::vector<std::string> not_looked_for;  ///< mechanisms that could be the cause, and why nobody tried them
-  std::shared_ptr<const Mixture> fitted;    ///< all steps; null where there are none
+  struct Untried {
+    std::string id;
+    bool no_clock;  ///< there is no time; else nobody says in which order rows were measured
+  };
+  std::vector<Untried> not_looked_for;    ///< mechanisms that could be the cause
+  std::shared_ptr<const Mixture> fitted;  ///< all steps; null where there are none
 
   [[nodiscard]] Size rest() const { return steps.empty() ? base : steps.back().rest; }
 };

@@ -1,29 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "budget/tolerance.hpp"
 
-#include <cmath>
-
-#include <fmt/format.h>
-
-#include "data/units.hpp"
-#include "tunica/error.hpp"
+#include <algorithm>
 
 namespace tunica::budget {
-namespace {
-
-using diagnosis::NoiseSource;
-
-/// What is stated for a channel, as a share of its range; none: nothing.
-std::optional<double> stated(const diagnosis::Request& request, const ChannelSize& channel) {
-  const std::string* text = nullptr;
-  for (const auto& [observable, value] : request.tolerance)
-    if (observable == channel.channel || (observable.empty() && text == nullptr)) text = &value;
-  if (text == nullptr) return std::nullopt;
-  if (text->ends_with('%')) return data::parse_quantity(*text, "1");
-  return data::parse_quantity(*text, channel.unit) / channel.range;
-}
-
-}  // namespace
 
 const char* code_of(Tolerance::Origin origin) {
   switch (origin) {
@@ -40,9 +20,11 @@ const char* code_of(Tolerance::Origin origin) {
 }
 
 Tolerance tolerance_of(const diagnosis::Request& request, const diagnosis::Evidence& evidence) {
+  using diagnosis::NoiseSource;
   Tolerance tolerance;
-  double sum = 0, rows = 0;
-  for (const ChannelSize& channel : MisfitSize(evidence).channels(evidence.fit)) {
+  std::vector<double> shares;
+  const std::vector<ChannelSize> channels = MisfitSize(evidence).channels(evidence.fit);
+  for (const ChannelSize& channel : channels) {
     double share = Tolerance{}.share;
     Tolerance::Origin origin = Tolerance::Origin::standard;
     for (const NoiseSource& source : evidence.noise)
@@ -51,16 +33,14 @@ Tolerance tolerance_of(const diagnosis::Request& request, const diagnosis::Evide
         share = source.noise.absolute / channel.range;
         origin = Tolerance::Origin::repeats;
       }
-    if (const auto own = stated(request, channel)) {
+    if (const auto own = assembly::stated_tolerance(request.tolerance, channel)) {
       share = *own;
       origin = Tolerance::Origin::stated;
     }
-    const auto n = static_cast<double>(channel.rows);
-    sum += n * share * share;
-    rows += n;
+    shares.push_back(share);
     tolerance.origin = std::min(tolerance.origin, origin);
   }
-  if (rows > 0) tolerance.share = std::sqrt(sum / rows);
+  if (!channels.empty()) tolerance.share = assembly::over_rows(channels, shares);
   return tolerance;
 }
 

@@ -130,9 +130,6 @@ void add_deviation(const assembly::Assembly& assembly, const std::vector<double>
     for (std::size_t i = 0, k = 0; i < view.count; ++i) {
       if (!view.fitted[i]) continue;
       const double error = std::abs(predictions[view.offset + i] - view.measured[i]);
-      one.lowest = k == 0 ? view.measured[i] : std::min(one.lowest, view.measured[i]);
-      one.highest = k == 0 ? view.measured[i] : std::max(one.highest, view.measured[i]);
-      one.mean_square += std::pow(error / sd[k], 2) / rows;
       one.mean += error / sd[k++] / rows;
       one.share += error / rows;
       one.largest = std::max(one.largest, std::abs(view.measured[i]));
@@ -146,7 +143,51 @@ void add_deviation(const assembly::Assembly& assembly, const std::vector<double>
   }
 }
 
-void add_quality(const assembly::Assembly& assembly, const execution::RealisationResult& best, RunSummary& summary) {
+/// How large the misfit is. A channel whose noise nobody knows has all of it as misfit.
+void add_size(const experiment::Experiment& experiment, const assembly::Assembly& assembly,
+              const std::vector<double>& predictions, RunSummary& summary) {
+  constexpr double hardly = 1e-9;  // of the range
+  const std::vector<double> ranges = assembly::observable_ranges(assembly.layout(), experiment);
+  std::vector<assembly::MisfitSize::Channel> channels;
+  std::vector<double> residuals;
+  for (std::size_t c = 0; c < ranges.size(); ++c) {
+    const auto& view = assembly.layout().channels[c];
+    assembly::NoiseModel noise = view.sigma.rows;
+    if (!(view.weight > 0) || noise.sd.empty()) continue;
+    if (!view.sigma.known()) {
+      noise.sd.assign(noise.sd.size(), hardly * ranges[c]);
+      noise.neighbour.clear();
+    }
+    double before = 0;
+    for (std::size_t i = 0, k = 0; i < view.count; ++i) {
+      if (!view.fitted[i]) continue;
+      const double phi = noise.neighbour.empty() ? 0 : noise.neighbour[k];
+      const double e = (predictions[view.offset + i] - view.measured[i]) / noise.sd[k++];
+      residuals.push_back((e - phi * before) / std::sqrt(1 - phi * phi));
+      before = e;
+    }
+    channels.push_back({view.test, view.observable, view.unit, ranges[c], std::move(noise)});
+  }
+  if (channels.empty()) return;
+  const assembly::MisfitSize size(std::move(channels));
+  const auto free = static_cast<std::size_t>(
+      std::count_if(summary.parameters.begin(), summary.parameters.end(),
+                    [](const Estimate& one) { return one.at_bound == Estimate::Bound::none; }));
+  const Eigen::Map<const Eigen::VectorXd> r(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+  summary.size = size.of(r, free);
+  summary.sizes = size.channels(r, free);
+  if (!experiment.diagnosis || experiment.diagnosis->tolerance.empty()) return;
+  std::vector<double> shares;
+  for (const assembly::ChannelSize& one : summary.sizes) {
+    const auto stated = assembly::stated_tolerance(experiment.diagnosis->tolerance, one);
+    if (!stated) return;
+    shares.push_back(*stated);
+  }
+  summary.tolerance = assembly::over_rows(summary.sizes, shares);
+}
+
+void add_quality(const experiment::Experiment& experiment, const assembly::Assembly& assembly,
+                 const execution::RealisationResult& best, RunSummary& summary) {
   std::vector<double> predictions(assembly.layout().prediction_count);
   auto workspace = assembly.evaluator().make_workspace();
   if (!assembly.evaluator().predict(best.best.parameters, predictions, {}, *workspace).ok()) return;
@@ -155,6 +196,7 @@ void add_quality(const assembly::Assembly& assembly, const execution::Realisatio
     if (const assembly::Misfit found = misfit(assembly, kind, predictions); found.judged()) own = found;
   }
   add_deviation(assembly, predictions, summary);
+  add_size(experiment, assembly, predictions, summary);
   for (auto& channel : assembly::quality(assembly, predictions)) {
     if (channel.fitted)
       summary.quality.push_back({channel.test, channel.observable, channel.unit, false, *channel.fitted, channel.over});
@@ -201,12 +243,12 @@ void add_spread(const assembly::Assembly& assembly, const execution::RunResult& 
 
 }  // namespace
 
-void estimate(const assembly::Assembly& assembly, const execution::RealisationResult& best,
-              const execution::RunResult& all, RunSummary& summary, std::vector<execution::Warning>& warnings,
-              plugins::Clock::time_point deadline) {
+void estimate(const experiment::Experiment& experiment, const assembly::Assembly& assembly,
+              const execution::RealisationResult& best, const execution::RunResult& all, RunSummary& summary,
+              std::vector<execution::Warning>& warnings, plugins::Clock::time_point deadline) {
   evaluate_again(assembly, best, summary, warnings);
   add_parameters(assembly, best, all, summary);
-  add_quality(assembly, best, summary);
+  add_quality(experiment, assembly, best, summary);
   add_noise(assembly, summary);
   {
     const plugins::LimitedWork work("summary", deadline);

@@ -11,6 +11,7 @@
 #include "comparison/hold_out.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/stability_report.hpp"
+#include "text/misfit_words.hpp"
 #include "text/units.hpp"
 #include "text/wrapping.hpp"
 
@@ -162,6 +163,14 @@ std::string other_intervals(const Estimate& estimate) {
   return text;
 }
 
+/// "misses by 6.9 % of the range (0.12 kPa)" beyond noise; empty where that is not known.
+std::string size_text(const RunSummary& run, const Quality& quality) {
+  for (const assembly::ChannelSize& one : run.sizes)
+    if (!quality.held_out && one.test == quality.test && one.channel == quality.channel)
+      return fmt::format(", {} ({:.2g}{})", text::misses_by(one.of_range().rms), one.rms, text::unit_suffix(one.unit));
+  return "";
+}
+
 std::string quality_text(const Quality& quality) {
   const auto& measure = quality.agreement;
   std::string text = fmt::format("RMSE {:.4g}{}", measure.rmse, text::unit_suffix(quality.unit));
@@ -215,7 +224,14 @@ text::StyledText run_lines(const RunSummary& run) {
   lines += side_by_side;
   for (const auto& quality : run.quality) {
     if (!side_by_side.empty()) break;
-    lines += text::hanging(fmt::format("  {}, {}: ", quality.test, quality.channel), quality_text(quality)) + '\n';
+    lines += text::hanging(fmt::format("  {}, {}: ", quality.test, quality.channel),
+                           quality_text(quality) + size_text(run, quality)) +
+             '\n';
+  }
+  if (run.size) {
+    std::string text = text::misses_by(run.size->rms) + " beyond noise";
+    if (run.tolerance) text += "; " + text::against_tolerance(run.size->rms, run.size->upper, *run.tolerance, "stated");
+    lines += text::hanging("  in all: ", text) + '\n';
   }
   if (run.misfit) lines += text::hanging("  misfit: ", assembly::in_words(*run.misfit, "stated")) + '\n';
   if (run.misfit_estimated)

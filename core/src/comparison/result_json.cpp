@@ -148,6 +148,25 @@ json covariance(const ParameterCovariance& found) {
           {"search", {{"scales", std::move(scales)}, {"values", matrix(found.search, n)}}}};
 }
 
+/// Beyond noise: of all rows as a share of the range, and of each channel in its unit.
+json misfit_size(const RunSummary& run) {
+  if (!run.size) return nullptr;
+  json channels = json::array();
+  for (const assembly::ChannelSize& one : run.sizes)
+    channels.push_back({{"test", one.test},
+                        {"channel", one.channel},
+                        {"unit", one.unit},
+                        {"range", one.range},
+                        {"rms", one.rms},
+                        {"rms_upper", one.upper},
+                        {"rows", one.rows}});
+  return {{"rms", run.size->rms},
+          {"rms_upper", run.size->upper},
+          {"tolerance", or_null(run.tolerance)},
+          {"adequate", run.tolerance ? json(run.size->upper <= *run.tolerance) : json(nullptr)},
+          {"channels", std::move(channels)}};
+}
+
 json best(const RunSummary& run) {
   json parameters = json::object();
   for (const auto& parameter : run.parameters) {
@@ -196,6 +215,7 @@ json best(const RunSummary& run) {
   result["channel_noise"] = noise(run.noise);
   result["misfit"] = misfit(run.misfit);
   result["misfit_estimated"] = misfit(run.misfit_estimated);
+  result["misfit_size"] = misfit_size(run);
   result["interval_factor"] = run.misfit && run.misfit->contradicts() ? run.misfit->times() : 1.0;
   result["intervals_withheld"] = run.withheld.empty() ? json(nullptr) : json(run.withheld);
   if (!run.notes.empty()) result["notes"] = run.notes;

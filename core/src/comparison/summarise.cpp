@@ -148,7 +148,8 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
   summary.best_realisation = best->realisation;
   summary.best_id = best->best.index + 1;
   summary.objective = best->best.objective;
-  estimate(*run.assembly, *best, result, summary, warnings, plugins::deadline_after(run.entry->stop.max_time));
+  estimate(experiment, *run.assembly, *best, result, summary, warnings,
+           plugins::deadline_after(run.entry->stop.max_time));
   add_bound_stops(*run.assembly, result, summary);
   add_effort_notes(summary);
   summary.has_costly_tests = run.assembly->layout().has_costly_tests;

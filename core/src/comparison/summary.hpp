@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "assembly/misfit.hpp"
+#include "assembly/misfit_size.hpp"
 #include "assembly/quality.hpp"
 #include "comparison/certificate.hpp"
 #include "comparison/conclusion.hpp"
@@ -83,11 +84,9 @@ struct NoiseOf {
 /// How far a channel is from its data, in units of their noise.
 struct Deviation {
   std::string test, channel, unit;
-  double mean = 0;                 ///< ⟨|e|/σ⟩ over the fitted rows
-  double sd = 0, largest = 0;      ///< median σ; largest |measured|
-  double share = 0;                ///< ⟨|e|⟩ of the largest |measured|
-  double mean_square = 0;          ///< ⟨(e/σ)²⟩
-  double lowest = 0, highest = 0;  ///< of the measured values
+  double mean = 0;             ///< ⟨|e|/σ⟩ over the fitted rows
+  double sd = 0, largest = 0;  ///< median σ; largest |measured|
+  double share = 0;            ///< ⟨|e|⟩ of the largest |measured|
 };
 
 /// Covariance of the parameters that the data fix, row after row; empty = none.
@@ -116,6 +115,10 @@ struct RunSummary {
   std::vector<Quality> quality;
   /// How far the best point misses the data: against stated noise, and against noise that is estimated from the data.
   std::optional<assembly::Misfit> misfit, misfit_estimated;
+  /// How large the misfit is that noise does not explain, of all fitted rows that count, and of each channel.
+  std::optional<assembly::Size> size;
+  std::vector<assembly::ChannelSize> sizes;
+  std::optional<double> tolerance;     ///< share of the range, where the experiment states one
   std::optional<Deviation> deviation;  ///< of the channel that is worst; none where no row counts
   std::vector<NoiseOf> noise;
   std::vector<std::string> notes;  ///< sentences that worry nobody

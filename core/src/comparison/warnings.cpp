@@ -10,6 +10,7 @@
 #include "comparison/ranking.hpp"
 #include "comparison/run_differences.hpp"
 #include "text/lists.hpp"
+#include "text/misfit_words.hpp"
 #include "text/units.hpp"
 
 namespace tunica::comparison {
@@ -90,18 +91,18 @@ void warn_of_small_misfit(const execution::Plan& plan, const std::vector<RunSumm
        {run.misfit ? &*run.misfit : nullptr, run.misfit_estimated ? &*run.misfit_estimated : nullptr}) {
     if (!misfit || !misfit->small_but_real() || !run.deviation) continue;
     const Deviation& worst = *run.deviation;
-    const double freedom = std::max(1.0, misfit->freedom) / static_cast<double>(std::max<std::size_t>(misfit->rows, 1));
-    const double size = worst.sd * std::sqrt(std::max(worst.mean_square / freedom - 1, misfit->per_freedom() - 1));
-    const double range = worst.highest - worst.lowest;
+    const auto size = std::find_if(run.sizes.begin(), run.sizes.end(), [&](const assembly::ChannelSize& one) {
+      return one.test == worst.test && one.channel == worst.channel;
+    });
+    if (size == run.sizes.end()) return;
     warnings.push_back(
         {WarningKind::small_misfit,
          fmt::format(
              "the model misses the data by a little, and really: χ²/ν is {:.3g}, which noise alone reaches with "
-             "a chance of {:.1g}. The misfit is about {:.2g}{}{} in '{}' of test '{}'. Intervals count noise "
-             "alone: if all of the misfit looks like one parameter, that one is off by {:.2g} half-widths. {}",
-             misfit->per_freedom(), misfit->chance, size, text::unit_suffix(worst.unit),
-             range > 0 ? fmt::format(", {:.2g} % of the range,", 100 * size / range) : std::string(), worst.channel,
-             worst.test, misfit->half_widths(), diagnosis_advised(plan, own)),
+             "a chance of {:.1g}. In '{}' of test '{}' it {} ({:.2g}{}). Intervals count noise alone: "
+             "if all of the misfit looks like one parameter, that one is off by {:.2g} half-widths. {}",
+             misfit->per_freedom(), misfit->chance, worst.channel, worst.test, text::misses_by(size->of_range().rms),
+             size->rms, text::unit_suffix(worst.unit), misfit->half_widths(), diagnosis_advised(plan, own)),
          run.label,
          {worst.test, worst.channel}});
     return;

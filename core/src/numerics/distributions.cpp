@@ -4,6 +4,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -32,6 +33,10 @@ double chi_squared_below(double x, double freedom) { return math::cdf(math::chi_
 
 double chi_squared_above(double x, double freedom) {
   return math::cdf(math::complement(math::chi_squared(freedom), x));
+}
+
+double noncentrality_at(double x, double freedom, double probability) {
+  return math::non_central_chi_squared_distribution<double>::find_non_centrality(freedom, x, probability);
 }
 
 double f_below(double x, double freedom, double freedom_below) {

@@ -15,6 +15,9 @@ double chi_squared_quantile(double probability, double freedom);
 double chi_squared_below(double x, double freedom);  ///< P(χ² ≤ x)
 double chi_squared_above(double x, double freedom);  ///< P(χ² > x)
 
+/// The noncentrality λ at which P(χ²(λ) ≤ x) is `probability`; that of λ = 0 has to be larger.
+double noncentrality_at(double x, double freedom, double probability);
+
 /// P(F ≤ x) and P(F > x) of a ratio of two mean squares.
 double f_below(double x, double freedom, double freedom_below);
 double f_above(double x, double freedom, double freedom_below);

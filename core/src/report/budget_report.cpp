@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 
 #include "report/diagnosis_pieces.hpp"
+#include "text/misfit_words.hpp"
 #include "text/units.hpp"
 
 namespace tunica::report {
 
 namespace {
-
-std::string of_range(double rms) { return fmt::format("{:.2g} %", 100 * rms); }
 
 /// "+ viscoelasticity", "+ a second viscoelasticity".
 std::string step_label(const Json& steps, std::size_t which) {
@@ -43,8 +42,8 @@ Chart waterfall(const Json& budget) {
     chart.labels.push_back(label);
     chart.x.include.push_back(rms);
     left.rows.push_back({rms, 0, rms,
-                         fmt::format("{} of the range, at most {}{}", of_range(number(of, "rms")),
-                                     of_range(number(of, "rms_upper")), more)});
+                         fmt::format("{} of the range, at most {}{}", text::percent(number(of, "rms")),
+                                     text::percent(number(of, "rms_upper")), more)});
   };
   add("model as given", budget, "");
   const Json& steps = list(budget, "steps");
@@ -66,35 +65,15 @@ void add_channels(Page& page, const Json& budget) {
     rows.push_back({{word(before[k], "test")},
                     {word(before[k], "channel")},
                     {amount(number(before[k], "rms"), unit), true},
-                    {of_range(number(before[k], "rms") / range), true},
+                    {text::percent(number(before[k], "rms") / range), true},
                     {amount(number(after[k], "rms"), unit), true},
-                    {of_range(number(after[k], "rms") / range), true},
-                    {of_range(number(after[k], "rms_upper") / range), true}});
+                    {text::percent(number(after[k], "rms") / range), true},
+                    {text::percent(number(after[k], "rms_upper") / range), true}});
   }
   page.html("<details><summary>By test and observable</summary>");
   page.html(
-      table_html({"test", "observable", "misfit as given", "of its range", "left", "of its range", "at most"}, rows));
+      table_html({"test", "observable", "misfit as given", "of the range", "left", "of the range", "at most"}, rows));
   page.html("</details>\n");
-}
-
-/// Every cause as the only one, the largest share first.
-void add_alone(Page& page, const Json& budget) {
-  constexpr std::size_t shown = 8;
-  std::vector<std::vector<Cell>> rows;
-  for (const Json& one : list(budget, "alone")) {
-    if (rows.size() >= shown) break;
-    const std::string belief = word(one, "belief");
-    rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
-                    {word(one, "group")},
-                    {fmt::format("{:.0f} %", 100 * number(one, "share")), true},
-                    {of_range(number(one, "rms")), true},
-                    {belief == "plausible" ? "yes"
-                     : belief == "flagged" ? "somewhat beyond"
-                                           : "no"}});
-  }
-  if (rows.empty()) return;
-  page.heading("Each cause alone");
-  page.html(table_html({"cause", "in", "takes of the misfit", "leaves, of the range", "amplitude plausible"}, rows));
 }
 
 }  // namespace
@@ -109,7 +88,26 @@ void add_budget(Page& page, const Folder& folder) {
   page.section("Budget of the misfit");
   page.chart(waterfall(budget), folder.address());
   add_channels(page, budget);
-  add_alone(page, budget);
+}
+
+void add_causes_alone(Page& page, const Folder& folder) {
+  constexpr std::size_t shown = 8;
+  const Json& budget = member(member(folder.result(), "diagnosis"), "budget");
+  std::vector<std::vector<Cell>> rows;
+  for (const Json& one : list(budget, "alone")) {
+    if (rows.size() >= shown) break;
+    const std::string belief = word(one, "belief");
+    rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
+                    {word(one, "group")},
+                    {fmt::format("{:.0f} %", 100 * number(one, "share")), true},
+                    {text::percent(number(one, "rms")), true},
+                    {belief == "plausible" ? "yes"
+                     : belief == "flagged" ? "somewhat beyond"
+                                           : "no"}});
+  }
+  if (rows.empty()) return;
+  page.section("Each cause alone");
+  page.html(table_html({"cause", "in", "takes of the misfit", "leaves, of the range", "amplitude plausible"}, rows));
 }
 
 }  // namespace tunica::report

@@ -231,13 +231,13 @@ void add_misfit(Page& page, const Folder& folder) {
   };
   std::stable_sort(curves.begin(), curves.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
   const bool clean = misfits.empty() && word(diagnosis, "verdict") == "nothing_detected";
-  page.section(clean ? "What the fit leaves over" : "Where the simulation is wrong");
-  page.begin_pair();
-  for (const auto& curve : curves) page.chart(residual_chart(*table, diagnosis, curve), folder.address());
-  page.end_pair();
   page.section(table->find("extended") ? "Before and after" : "Data and fit");
   page.begin_pair();
   for (const auto& curve : curves) page.chart(before_and_after(*table, diagnosis, curve), folder.address());
+  page.end_pair();
+  page.section(clean ? "What the fit leaves over" : "Where the simulation is wrong");
+  page.begin_pair();
+  for (const auto& curve : curves) page.chart(residual_chart(*table, diagnosis, curve), folder.address());
   page.end_pair();
 }
 

@@ -9,8 +9,10 @@
 /// What the charts of a diagnosis share.
 namespace tunica::report {
 
-/// The waterfall of the budget, and what it is made of.
+/// The waterfall of the budget, and what each test has of it.
 void add_budget(Page& page, const Folder& folder);
+/// Every cause as the only one, the largest share first.
+void add_causes_alone(Page& page, const Folder& folder);
 
 /// " in tube, pressure, row 4"; "" for what acts on the model.
 std::string place_words(const Json& target);

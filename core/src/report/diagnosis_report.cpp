@@ -266,8 +266,9 @@ void add_extension(Page& page, const Folder& folder) {
 void add_diagnosis(Page& page, const Folder& folder) {
   add_verdict(page, folder);
   add_budget(page, folder);
-  add_terms(page, folder);
   add_misfit(page, folder);
+  add_causes_alone(page, folder);
+  add_terms(page, folder);
   add_candidates(page, folder);
   add_extension(page, folder);
   add_reach(page, folder);

@@ -8,6 +8,7 @@
 
 #include "report/sections.hpp"
 #include "text/lists.hpp"
+#include "text/misfit_words.hpp"
 
 namespace tunica::report {
 
@@ -46,6 +47,12 @@ std::vector<std::string> fit_words(const Json& best) {
     lines.push_back(fmt::format("χ²/ν {} against the stated noise (χ² {}, {} rows).",
                                 figure(number(misfit, "reduced_chi_square")), figure(number(misfit, "chi_square")),
                                 figure(number(misfit, "rows"))));
+  if (const Json& size = member(best, "misfit_size"); size.is_object()) {
+    std::string text = fmt::format("It {} beyond noise", text::misses_by(number(size, "rms")));
+    if (const double tolerance = number(size, "tolerance"); std::isfinite(tolerance))
+      text += "; " + text::against_tolerance(number(size, "rms"), number(size, "rms_upper"), tolerance, "stated");
+    lines.push_back(text + '.');
+  }
   if (!held_out.empty()) lines.push_back("Held out: " + scored_words(std::move(held_out)) + '.');
   return lines;
 }

@@ -44,6 +44,7 @@ json budget_json(const Budget& budget) {
                      {"rms_upper", step.rest.upper}});
   for (const Contender& one : budget.contenders)
     contenders.push_back({{"id", one.id},
+                          {"acts_like", one.sort},
                           {"term", one.term},
                           {"target", diagnosis::place_json(one.place)},
                           {"group", diagnosis::code_of(one.group)},
@@ -69,7 +70,9 @@ json budget_json(const Budget& budget) {
   result["alone"] = std::move(contenders);
   result["unlisted_probability"] = budget.unlisted_probability;
   result["rough"] = budget.rough;
-  result["not_looked_for"] = budget.not_looked_for;
+  json untried = json::array();
+  for (const Budget::Untried& one : budget.not_looked_for) untried.push_back(one.id);
+  result["not_looked_for"] = std::move(untried);
   return result;
 }
 

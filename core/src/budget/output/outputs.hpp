@@ -6,12 +6,12 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "budget/budget.hpp"
+#include "text/misfit_words.hpp"
 #include "text/styled.hpp"
 
 namespace tunica::budget {
 
-/// "6.9 %", "0.24 %"
-std::string percent(double share);
+using text::percent;
 
 /// "stated", "default", "scatter between the repeats"
 const char* origin_words(const Tolerance& tolerance);

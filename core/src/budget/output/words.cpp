@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include "budget/output/outputs.hpp"
-#include "text/units.hpp"
 #include "text/wrapping.hpp"
 
 namespace tunica::budget {
@@ -20,27 +19,21 @@ std::string added(const std::vector<Step>& steps, std::size_t which) {
   return fmt::format("{}{}{}", ordinal, step.id, step.place.tests.empty() ? "" : " " + step.place.words());
 }
 
-std::string tolerance_words(const Budget& budget) {
-  const double rest = budget.rest().rms, tolerance = budget.tolerance.share;
-  const char* const reached = budget.adequate ? "reached" : rest <= 1.2 * tolerance ? "nearly reached" : "not reached";
-  return fmt::format("tolerance {} ({}): {}", percent(tolerance), origin_words(budget.tolerance), reached);
-}
-
-std::string channel_words(const std::vector<ChannelSize>& channels) {
-  const auto worst = std::max_element(channels.begin(), channels.end(), [](const ChannelSize& a, const ChannelSize& b) {
-    return a.rms / a.range < b.rms / b.range;
-  });
-  return fmt::format("most in {}, {}: {:.3g}{} ({} of its range, at most {})", worst->test, worst->channel, worst->rms,
-                     text::unit_suffix(worst->unit), percent(worst->rms / worst->range),
-                     percent(worst->upper / worst->range));
+/// "viscoelasticity (needs a time column); stress_softening (needs the order of the rows)"
+std::string untried(const std::vector<Budget::Untried>& all) {
+  std::vector<std::string> parts;
+  for (const bool no_clock : {true, false}) {
+    std::vector<std::string> ids;
+    for (const Budget::Untried& one : all)
+      if (one.no_clock == no_clock) ids.push_back(one.id);
+    if (!ids.empty())
+      parts.push_back(fmt::format("{} ({})", fmt::join(ids, ", "),
+                                  no_clock ? "needs a time column" : "needs the order of the rows"));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 }  // namespace
-
-std::string percent(double share) {
-  const double value = 100 * share;
-  return fmt::format("{:.{}f} %", value, value < 0.995 ? 2 : value < 9.95 ? 1 : 0);
-}
 
 const char* origin_words(const Tolerance& tolerance) {
   switch (tolerance.origin) {
@@ -75,13 +68,15 @@ text::StyledText same_model_line(const Budget& budget, const std::string& base) 
 
 text::StyledText summary(const Budget& budget, const std::string& base) {
   text::StyledText lines;
-  std::string text = fmt::format("{} misses by {} of the range", base, percent(budget.base.rms));
+  std::string text = fmt::format("{} {}", base, text::misses_by(budget.base.rms));
   for (std::size_t k = 0; k < budget.steps.size(); ++k)
     text += fmt::format("; + {}: {} ({})", added(budget.steps, k), percent(budget.steps[k].rest.rms),
                         percent(budget.steps[k].share));
-  text += "; " + tolerance_words(budget);
+  text += "; " + text::against_tolerance(budget.rest().rms, budget.rest().upper, budget.tolerance.share,
+                                         origin_words(budget.tolerance));
   lines += text::hanging("Budget:   ", text) + '\n';
-  if (!budget.rest_channels.empty()) lines += text::hanging("Left:     ", channel_words(budget.rest_channels)) + '\n';
+  if (!budget.rest_channels.empty())
+    lines += text::hanging("Left:     ", assembly::where_most(budget.rest_channels)) + '\n';
   lines += same_model_line(budget, base);
   std::vector<std::string> others;
   for (const Contender& one : budget.contenders) {
@@ -93,7 +88,7 @@ text::StyledText summary(const Budget& budget, const std::string& base) {
   }
   if (!others.empty()) lines += text::hanging("Alone:    ", fmt::format("{}", fmt::join(others, ", "))) + '\n';
   if (!budget.not_looked_for.empty() && !budget.contenders.empty())
-    lines += text::hanging("Not tried:", fmt::format(" {}", fmt::join(budget.not_looked_for, ", "))) + '\n';
+    lines += text::hanging("Untried:  ", untried(budget.not_looked_for)) + '\n';
   return lines;
 }
 

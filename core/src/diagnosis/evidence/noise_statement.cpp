@@ -220,13 +220,14 @@ experiment::Experiment with_noise(experiment::Experiment experiment, const std::
   return experiment;
 }
 
-std::vector<double> row_deviations(const assembly::MeasuredChannel& view) {
+assembly::NoiseModel row_noise(const assembly::MeasuredChannel& view) {
   data::Noise noise = view.noise.value();
   noise.gross.clear();
   std::vector<std::string> warnings;
   return assembly::noise_model({view.observable, view.unit, view.measured, {}, noise}, view.abscissa, view.fitted,
-                               view.test, warnings)
-      .sd;
+                               view.test, warnings);
 }
+
+std::vector<double> row_deviations(const assembly::MeasuredChannel& view) { return row_noise(view).sd; }
 
 }  // namespace tunica::diagnosis

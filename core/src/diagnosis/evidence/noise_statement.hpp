@@ -45,8 +45,10 @@ std::vector<NoiseSource> noise_sources(const experiment::Experiment& experiment,
 experiment::Experiment with_noise(experiment::Experiment experiment, const std::vector<std::string>& tests,
                                   const std::vector<NoiseSource>& sources);
 
-/// σ of the fitted rows as the fit has it: of a mean, where there are replicates. Rows left out as gross errors have
-/// that of their neighbours, and not the one that silences them.
+/// Noise of the fitted rows as the fit has it: of a mean, where there are replicates. Rows left out as gross errors
+/// have that of their neighbours, and not the one that silences them.
+assembly::NoiseModel row_noise(const assembly::MeasuredChannel& view);
+/// Its σ.
 std::vector<double> row_deviations(const assembly::MeasuredChannel& view);
 
 }  // namespace tunica::diagnosis

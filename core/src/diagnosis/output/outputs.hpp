@@ -31,8 +31,8 @@ std::string result_document(const Diagnosis& diagnosis, const experiment::Experi
 std::vector<std::string> explanations(const Claim& claim);
 
 /// What a person reads on the terminal: what is wrong and where, the cause and how sure, what else it could be, what
-/// was gained, what to measure next.
-text::StyledText summary(const Diagnosis& diagnosis);
+/// was gained, what to measure next. `below_verdict`: lines that stand second.
+text::StyledText summary(const Diagnosis& diagnosis, const text::StyledText& below_verdict = {});
 
 /// The experiment with the causes added, its parameters at their fitted values, one run of whitened least squares: the
 /// text of extended.json. Empty without an extension.

@@ -59,6 +59,8 @@ std::string verdict_line(const Diagnosis& d) {
       if (explanation.unlisted && claim.ambiguity_set.size() == claim.named)
         return fmt::format("INDISTINGUISHABLE: {} together, or one effect that the catalogue does not list",
                            fmt::join(claim.ambiguity_set, " and "));
+      if (!explanation.reasons.empty() && explanation.reasons.front().kind == ReasonKind::several_lead)
+        return "INDISTINGUISHABLE: " + joined_reasons(explanation);
       return fmt::format("INDISTINGUISHABLE: {} explain the misfit about equally well{}{}",
                          fmt::join(explanations(claim), ", "),
                          explanation.unlisted || explanation.reasons.empty() ? "" : "; ",
@@ -103,8 +105,10 @@ std::string standing_words(const Cause& cause, const Explanation& explanation) {
     case Standing::at_bound:
       return "likeliest of the catalogue, but at its bound";
     case Standing::implausible:
+      if (explanation.verdict == Verdict::leading) return "with all steps of the budget; beyond what is plausible";
       return "likeliest of the catalogue, but beyond what is plausible";
     case Standing::rest_is_left:
+      if (explanation.verdict == Verdict::leading) return "with all steps of the budget; what is left is not noise";
       break;
   }
   return "likeliest of the catalogue, but what is left is not noise";
@@ -297,13 +301,14 @@ std::vector<std::string> explanations(const Claim& claim) {
   return all.empty() ? claim.ambiguity_set : all;
 }
 
-text::StyledText summary(const Diagnosis& d) {
+text::StyledText summary(const Diagnosis& d, const text::StyledText& below_verdict) {
   const Explanation& explanation = d.explanation;
   const Claim& claim = explanation.claim;
   const bool wrong = explanation.verdict != Verdict::nothing_detected;
   text::StyledText lines;
   lines.add(text::hanging("Verdict:  ", verdict_line(d)), text::Emphasis::heading);
   lines += "\n";
+  lines += below_verdict;
   const auto line = [&lines](const char* lead, const std::string& text) {
     if (!text.empty()) lines += text::hanging(lead, text) + '\n';
   };
@@ -315,7 +320,9 @@ text::StyledText summary(const Diagnosis& d) {
   for (std::size_t k = 0; k < std::min(claim.named, claim.causes.size()); ++k)
     line("Cause:    ", cause_line(claim.causes[k], explanation));
   for (const Cause& row : explanation.left_out) line("Cause:    ", cause_line(row, explanation));
-  if (wrong && !claim.causes.empty()) line("Or else:  ", rivals_line(explanation));
+  // The budget has what else there is beside what leads.
+  const bool leads = explanation.verdict == Verdict::leading;
+  if (wrong && !leads && !claim.causes.empty()) line("Or else:  ", rivals_line(explanation));
   if (wrong) line("Left out: ", not_tried(d.prospects.detectable));
   if (d.prospects.gain) line("Gain:     ", gain_line(*d.prospects.gain, claim.named > 1));
   line("Material: ", material_line(explanation.admissibility));
