@@ -83,16 +83,15 @@ std::optional<Apart> apart(const diagnosis::Evidence& evidence, const std::strin
   return found;
 }
 
-/// Like which invariant of a term it looks what a mechanism, or a power of the stretches, does to the energy; its own
-/// sort where it looks like none.
+/// Like which invariant of a term it looks what a mechanism or a power of the stretches does to the energy; its own
+/// sort where it looks like none. Diagonal fibres whose angle lies along an axis are those of the axis.
 void sort_by_form(const diagnosis::Evidence& evidence, std::vector<Entrant>& entrants) {
   constexpr double alike = 0.9, as_much = 0.15;  // as_much: of the misfit
   const auto change = [&](const Entrant& one) -> Eigen::VectorXd { return evidence.fit.residuals - one.residuals; };
-  for (Entrant& one : entrants) {
-    if (!one.in_the_energy || (one.term && !one.powers())) continue;
+  const auto take_sort = [&](Entrant& one, const auto& could_be) {
     double best = alike;
     for (const Entrant& term : entrants) {
-      if (!term.term || term.powers() || std::abs(term.share - one.share) > as_much) continue;
+      if (&term == &one || !could_be(term) || std::abs(term.share - one.share) > as_much) continue;
       const Eigen::VectorXd a = change(one), b = change(term);
       const double c = a.dot(b) / std::max(a.norm() * b.norm(), 1e-300);
       if (c > best) {
@@ -100,7 +99,12 @@ void sort_by_form(const diagnosis::Evidence& evidence, std::vector<Entrant>& ent
         one.sort = term.sort;
       }
     }
-  }
+  };
+  for (Entrant& one : entrants)
+    if (one.diagonal()) take_sort(one, [](const Entrant& term) { return term.fibres() && !term.diagonal(); });
+  for (Entrant& one : entrants)
+    if (one.in_the_energy && (!one.term || one.powers()))
+      take_sort(one, [](const Entrant& term) { return term.term && !term.powers(); });
 }
 
 }  // namespace

@@ -61,7 +61,12 @@ struct Entrant {
   double log_prior = 0;
 
   /// A term in the principal stretches, which may be written in other invariants.
-  [[nodiscard]] bool powers() const { return term && mixture->members.front().term->invariant == "stretches"; }
+  [[nodiscard]] bool powers() const { return term && kind().invariant == "stretches"; }
+  [[nodiscard]] bool fibres() const { return term && !kind().isotropic(); }
+  [[nodiscard]] bool diagonal() const { return term && kind().family == "diagonal"; }
+
+ private:
+  [[nodiscard]] const discovery::Kind& kind() const { return *mixture->members.front().term; }
 };
 
 /// Every cause that could be fitted, the largest share first; probabilities with "no listed cause" among them, which is

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -71,7 +72,9 @@ Decision decided(const Budget& budget) {
   for (const Contender& one : budget.contenders) {
     if (one.share > top->share + ahead) return decision;  // its name is not for the runner-up to have
     const bool unlikely_form = one.in_the_energy && one.probability < unlikely * likeliest;
-    if (one.share >= top->share - ahead && !unlikely_form) ties.push_back(&one);
+    // Nobody would believe it, and it takes no more: it is no rival. The list of causes alone shows it.
+    const bool no_rival = one.belief == Belief::beyond && one.share <= top->share && one.probability < unlikely;
+    if (one.share >= top->share - ahead && !unlikely_form && !no_rival) ties.push_back(&one);
   }
   if (top->share < most_of_it) return leading_by_steps(budget, std::move(decision));
   if (probability_of(ties) < sure_enough) return decision;
@@ -100,15 +103,34 @@ double share_of(const Budget& budget, const Contender& contender) {
 
 std::string place_of(const diagnosis::Place& place) { return place.tests.empty() ? "" : " " + place.words(); }
 
-std::string leading_words(const Budget& budget, const Decision& decision) {
+/// What a contender is a kind of: "a law of the first invariant", "axial fibres", or its id.
+std::string class_of(const Contender& contender) {
+  if (contender.sort == "I1") return "a law of the first invariant";
+  if (contender.sort == "I2") return "a law of the second invariant";
+  if (contender.sort == "stretches") return "a law of the principal stretches";
+  constexpr std::string_view fibre = "fibre ";
+  if (contender.sort.starts_with(fibre)) return contender.sort.substr(fibre.size()) + " fibres";
+  return contender.id;
+}
+
+/// `stable`: the base is a material. Where it is none, what leads mends that too, and its form says nothing.
+std::string leading_words(const Budget& budget, const Decision& decision, bool stable) {
   const Contender& first = *decision.first.front();
+  if (!stable && first.in_the_energy)
+    return fmt::format(
+        "mainly {}{}: it takes {} of the misfit; the base is not stable as it is fitted, so that the "
+        "form of the law is open; {}",
+        class_of(first), place_of(first.place), percent(share_of(budget, first)),
+        remains(budget.rest(), budget.tolerance));
   std::vector<std::string> forms;
+  std::set<std::string> said{first.id};
   for (std::size_t k = 1; k < decision.first.size() && forms.size() < 3; ++k)
-    forms.push_back(fmt::format("{} {}", decision.first[k]->id, percent(decision.first[k]->share)));
+    if (said.insert(decision.first[k]->id).second)
+      forms.push_back(fmt::format("{} {}", decision.first[k]->id, percent(decision.first[k]->share)));
   const bool acts_like = first.in_the_energy && !first.id.starts_with(first.sort);
-  const std::string like = acts_like ? fmt::format(" (acts like {} here)", first.sort) : "";
-  std::string text = fmt::format("mainly {}{}{}: it takes {} of the misfit", first.id, like, place_of(first.place),
-                                 percent(share_of(budget, first)));
+  const std::string like = acts_like ? fmt::format(", which acts like a law of {} here", first.sort) : "";
+  std::string text = fmt::format("mainly {}{}{}{}: it takes {} of the misfit", first.term ? "the term " : "", first.id,
+                                 like, place_of(first.place), percent(share_of(budget, first)));
   if (first.belief == Belief::flagged) text += ", with an amplitude somewhat beyond what is plausible";
   if (!forms.empty()) text += fmt::format("; its form is open ({} alone)", fmt::join(forms, ", "));
   return text + "; " + remains(budget.rest(), budget.tolerance);
@@ -119,20 +141,20 @@ std::string tie_words(const Budget& budget, const Decision& decision) {
   std::set<std::string> sorts;
   for (const Contender* one : decision.first)
     if (sorts.insert(one->sort).second)
-      parts.push_back(fmt::format("{} {}{}", one->id, percent(one->share),
+      parts.push_back(fmt::format("{}{} {}{}", one->id, place_of(one->place), percent(one->share),
                                   one->belief == Belief::beyond ? " (beyond what is plausible)" : ""));
-  return fmt::format("alone they take {} of the misfit; {}", fmt::join(parts, ", "),
-                     remains(budget.rest(), budget.tolerance));
+  return fmt::format("alone, these take so much of the misfit that none is clearly ahead: {}; {}",
+                     fmt::join(parts, ", "), remains(budget.rest(), budget.tolerance));
 }
 
 std::string unknown_words(const Budget& budget) {
   if (budget.rough)
     return fmt::format(
-        "the base misses by {} of the range, and what the best cause leaves is rougher than a smooth misfit: the noise "
+        "the base {}, and what the best cause leaves is rougher than a smooth misfit: the noise "
         "is larger than it is said to be, or a cause with fine structure is not listed",
-        percent(budget.base.rms));
-  std::string text = fmt::format("the base misses by {} of the range", percent(budget.base.rms));
-  if (budget.base.upper <= budget.tolerance.share)
+        text::misses_by(budget.base.rms));
+  std::string text = "the base " + text::misses_by(budget.base.rms);
+  if (budget.base.rms <= budget.tolerance.share)
     text += fmt::format(", which is within the tolerance ({}, {})", percent(budget.tolerance.share),
                         origin_words(budget.tolerance));
   if (budget.contenders.empty()) return text;
@@ -177,6 +199,15 @@ void add_anisotropy(const Budget& budget, Explanation& explanation) {
   if (!budget.anisotropy.empty()) explanation.reasons.push_back({ReasonKind::anisotropy_seen, budget.anisotropy});
 }
 
+/// Takes back what the diagnosis says of its best causes, which leave more than noise.
+void withdraw_causes(diagnosis::Diagnosis& d) {
+  d.explanation.noise_factor.reset();
+  d.explanation.unlisted = false;
+  d.explanation.claim = {};
+  d.prospects.gain.reset();
+  d.prospects.next.reset();
+}
+
 bool only_mechanisms(const Mixture& mixture) {
   return std::all_of(mixture.members.begin(), mixture.members.end(),
                      [](const Member& member) { return member.mechanism.has_value(); });
@@ -193,14 +224,17 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
     if (explanation.verdict == Verdict::discovered) return d;
     explanation.reasons = {{ReasonKind::unlisted_misfit, unknown_words(budget)}};
     add_anisotropy(budget, explanation);
+    // Nothing is claimed of causes, so there is no extension to run.
+    using diagnosis::WarningKind;
+    withdraw_causes(d);
+    explanation.left_out.clear();
+    std::erase_if(d.prospects.warnings, [](const diagnosis::Warning& warning) {
+      return warning.kind == WarningKind::run_keeps_gross_rows || warning.kind == WarningKind::run_differs_in_noise;
+    });
     return d;
   }
   explanation.verdict = decision.verdict;
-  explanation.noise_factor.reset();
-  explanation.unlisted = false;
-  explanation.claim = {};
-  d.prospects.gain.reset();
-  d.prospects.next.reset();
+  withdraw_causes(d);
   const experiment::Experiment measured = experiment::measured_only(experiment);
   const diagnosis::Progress quiet;
   const diagnosis::Inquiry inquiry{measured, d.request, catalogue, quiet};
@@ -212,7 +246,8 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
   };
   if (decision.verdict == Verdict::leading) {
     budget.lead = *decision.first.front();
-    explanation.reasons = {{ReasonKind::leads, leading_words(budget, decision)}};
+    explanation.reasons = {
+        {ReasonKind::leads, leading_words(budget, decision, explanation.admissibility.stable.value_or(true))}};
     if (budget.fitted && only_mechanisms(*budget.fitted)) {
       claim(inquiry, d.analysis, budget, *budget.fitted, explanation);
       d.prospects.gain = diagnosis::gain_of(inquiry, d.analysis, explanation.claim);

@@ -82,13 +82,19 @@ std::vector<Warning> estimate_warnings(const Evidence& evidence, const Fit& best
   if (open.empty()) return {};
   std::vector<Warning> warnings{noise_warning(open)};
   const auto correlation = row_correlation(evidence, best);
-  if (correlation && correlation->value > significant * correlation->sd)
+  if (correlation && correlation->value > significant * correlation->sd) {
+    // What is put back for the projection may carry the estimate beyond what a correlation can be.
+    constexpr double nearly_all = 0.95;
+    const std::string size = correlation->value > nearly_all
+                                 ? "near 1"
+                                 : fmt::format("{:.2f} ± {:.2f}", correlation->value, correlation->sd);
     warnings.push_back(
         {WarningKind::rows_correlated,
-         fmt::format("neighbouring rows share their errors: correlation {:.2f} ± {:.2f} in what no candidate explains. "
+         fmt::format("neighbouring rows share their errors: correlation {} in what no candidate explains. "
                      "The diagnosis takes them as independent, so that alarms come too easily. State "
                      "noise.correlation, or give replicates",
-                     correlation->value, correlation->sd)});
+                     size)});
+  }
   return warnings;
 }
 

@@ -34,14 +34,18 @@ GrossRow gross_row(const Evidence& evidence, const Curve& curve, std::size_t row
 }
 
 /// How far a residual lies from the straight line through two neighbours (on either side; at an end both on one), in
-/// its standard deviations; 0 where a neighbour is almost as large, for then they are part of one shape.
+/// its standard deviations; 0 where a neighbour is almost as large, for then they are part of one shape. So it is at an
+/// end where the rows before already turn that way: a curve that leaves the model at its end does so faster and faster.
 double contrast(const Evidence& evidence, const Curve& curve, Eigen::Index k) {
   if (curve.count < 4) return 0;
   const auto residual = [&](Eigen::Index row) { return -evidence.fit.residuals[curve.first + row]; };
   const bool first = k == 0, last = k + 1 == curve.count;
   const double near = first ? residual(1) : residual(k - 1);
   const double far = first ? residual(2) : last ? residual(k - 2) : residual(k + 1);
-  const double r = residual(k), line = first || last ? 2 * near - far : (near + far) / 2;
+  const double r = residual(k);
+  constexpr double of_noise = 3.5;  // of a difference of two rows: 2.5 standard deviations
+  if ((first || last) && std::abs(near - far) > of_noise && (r - near) * (near - far) > 0) return 0;
+  const double line = first || last ? 2 * near - far : (near + far) / 2;
   constexpr double alone = 2.5;
   if (std::abs(r) < alone * std::max(std::abs(near), std::abs(far))) return 0;
   return (r - line) / std::sqrt(first || last ? 6.0 : 1.5);

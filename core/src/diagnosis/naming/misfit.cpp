@@ -55,11 +55,12 @@ Misfit described(const Evidence& evidence, const Curve& curve, const Eigen::Vect
            .segment(curve.first + static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(last - first + 1))
            .mean();
   Misfit misfit{curve.test, curve.channel, {}, p, from, to};
-  misfit.where =
-      fmt::format("{} {:.4g} … {:.4g}{}{}: measured lies {} the prediction by {:.1f} σ on average over {} rows",
-                  over.name, from, to, over.unit == "1" || over.unit.empty() ? "" : " " + over.unit,
-                  within_one ? " at " + over.curves[curve.rows[first]] : "", mean > 0 ? "above" : "below",
-                  std::abs(mean), last - first + 1);
+  std::string reach = fmt::format("{:.4g}", from);
+  if (std::string end = fmt::format("{:.4g}", to); end != reach) reach += " … " + end;  // held: there is one value
+  misfit.where = fmt::format("{} {}{}{}: measured lies {} the prediction by {:.1f} σ on average over {} rows",
+                             over.name, reach, over.unit == "1" || over.unit.empty() ? "" : " " + over.unit,
+                             within_one ? " at " + over.curves[curve.rows[first]] : "", mean > 0 ? "above" : "below",
+                             std::abs(mean), last - first + 1);
   return misfit;
 }
 
