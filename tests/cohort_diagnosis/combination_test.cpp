@@ -146,5 +146,48 @@ TEST(Combination, SaysWhatIsWrongWithACohort) {
   EXPECT_THAT(refused(cohort, {}), HasSubstr("two specimens have the id 's1'"));
 }
 
+/// Specimens that are missed by 3 % of their range of 10 kPa, and whose curves are straight lines with these ends.
+std::vector<SpecimenEvidence> of_straight_lines(const std::vector<double>& ends) {
+  auto cohort = alike({}, ends.size(), {0, 0, 0}, 4);
+  for (std::size_t s = 0; s < ends.size(); ++s) {
+    Outline line{"strip", "stress", 50, 10, 0.03, 1, 1.5, {}};
+    for (int k = 0; k < 9; ++k) line.values.push_back(ends[s] * k / 8);
+    cohort[s].rms = 0.03;
+    cohort[s].rms_upper = 0.04;
+    cohort[s].outlines = {line};
+  }
+  return cohort;
+}
+
+TEST(Combination, HoldsTheMisfitAgainstWhatSpecimensDifferBy) {
+  const CohortSize size = combine(of_straight_lines({8, 10, 12})).size;
+  // σ = 2 kPa at the end and falls to 0: √(Σ(k/8)²/9) · 2/10.
+  EXPECT_NEAR(size.tolerance.share, 0.2 * std::sqrt(204.0 / 64 / 9), 1e-12);
+  EXPECT_EQ(size.tolerance.origin, budget::Tolerance::Origin::cohort);
+  EXPECT_NEAR(size.rms, 0.03, 1e-12);
+  EXPECT_EQ(size.within, 3u);
+}
+
+TEST(Combination, HoldsTheMisfitAgainstWhatIsStatedOrTwoPerCentWhereTwoSpecimensHaveNoSpread) {
+  EXPECT_EQ(combine(of_straight_lines({8, 12})).size.tolerance.share, 0.02);
+  EXPECT_EQ(combine(of_straight_lines({8, 12})).size.within, 0u);
+  auto stated = of_straight_lines({8, 10, 12});
+  for (SpecimenEvidence& one : stated) {
+    one.tolerance = 0.05;
+    one.tolerance_origin = budget::Tolerance::Origin::stated;
+  }
+  const CohortSize size = combine(stated).size;
+  EXPECT_NEAR(size.tolerance.share, 0.05, 1e-12);
+  EXPECT_EQ(size.tolerance.origin, budget::Tolerance::Origin::stated);
+}
+
+TEST(Combination, SeesWhatSpecimensDifferByOnlyWhereAllHaveBeen) {
+  auto cohort = of_straight_lines({10, 10, 10});
+  // The same line, followed twice as far.
+  cohort[1].outlines.front().to = 2;
+  for (double& value : cohort[1].outlines.front().values) value *= 2;
+  EXPECT_NEAR(combine(cohort).size.tolerance.share, 0, 1e-12);
+}
+
 }  // namespace
 }  // namespace tunica::cohort_diagnosis

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "budget/output/outputs.hpp"
 #include "cohort/diagnosis_study.hpp"
 #include "text/lists.hpp"
+#include "text/misfit_words.hpp"
 #include "text/units.hpp"
 #include "text/wrapping.hpp"
 
@@ -54,6 +56,13 @@ std::string alarm_sentence(const DiagnosisStudy& study) {
                      text::agreeing(static_cast<std::size_t>(alone), "raises", "raise"));
 }
 
+std::string size_sentence(const CohortVerdict& verdict) {
+  const cohort_diagnosis::CohortSize& size = verdict.size;
+  return fmt::format("The model {} over all specimens; tolerance {} ({}): reached in {} of {}",
+                     text::misses_by(size.rms), text::percent(size.tolerance.share),
+                     budget::origin_words(size.tolerance), size.within, verdict.specimens.size());
+}
+
 std::string amplitude_sentence(const cohort_diagnosis::Explanation& best, std::size_t k, const CommonAmplitude& one) {
   return fmt::format("{} {}: {}{} is {:.3g}{} on average ({:.3g} … {:.3g}), and differs between specimens by {:.2g}",
                      best.ids[k], best.places[k].words(), one.squared ? "the square of " : "", one.name, one.mean,
@@ -97,7 +106,7 @@ void add_lines(const std::vector<std::string>& lines, std::string& words) {
 std::vector<std::string> diagnosis_sentences(const DiagnosisStudy& study) {
   if (!study.none.empty()) return {"NO VERDICT: " + study.none};
   const CohortVerdict& verdict = study.verdict;
-  std::vector<std::string> all{verdict_sentence(verdict), alarm_sentence(study)};
+  std::vector<std::string> all{verdict_sentence(verdict), alarm_sentence(study), size_sentence(verdict)};
   if (verdict.explanations.empty()) return all;
   const auto& best = verdict.explanations.front();
   if (verdict.verdict == Verdict::unknown)

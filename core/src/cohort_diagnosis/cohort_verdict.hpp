@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "budget/tolerance.hpp"
 #include "cohort_diagnosis/profile.hpp"
 
 namespace tunica::cohort_diagnosis {
@@ -92,6 +93,13 @@ struct CohortReason {
   std::string text;
 };
 
+/// How far the model misses the specimens beyond noise, as a share of the range.
+struct CohortSize {
+  double rms = 0;  ///< squares averaged over specimens
+  budget::Tolerance tolerance;
+  std::size_t within = 0;  ///< specimens that it is reached in, by the upper bound
+};
+
 struct CohortVerdict {
   diagnosis::Verdict verdict = diagnosis::Verdict::nothing_detected;
   std::vector<CohortReason> reasons;
@@ -104,7 +112,8 @@ struct CohortVerdict {
   std::vector<CommonAmplitude> amplitudes;            ///< of the best explanation
   std::vector<FactorEvidence> factors;
   std::vector<Contradiction> contradictions;
-  std::vector<LeftOut> left_out;       ///< of a single mechanism; specimens left out one by one
+  std::vector<LeftOut> left_out;  ///< of a single mechanism; specimens left out one by one
+  CohortSize size;
   double p_rest = 1;                   ///< of the smooth shapes that the best explanation leaves
   std::vector<std::string> specimens;  ///< in the order of the matrix
   std::vector<double> p_values;        ///< of each by itself

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "cohort_diagnosis/alarm.hpp"
+#include "cohort_diagnosis/cohort_size.hpp"
 #include "cohort_diagnosis/common_amplitude.hpp"
 #include "cohort_diagnosis/contradictions.hpp"
 #include "cohort_diagnosis/groups.hpp"
@@ -312,6 +313,7 @@ CohortVerdict combine(std::span<const SpecimenEvidence> given, std::span<const F
   (void)levels_of(specimens, factors);
   found.p_value = p_of_cohort(specimens);
   found.alarm = found.p_value <= request.alpha;
+  found.size = size_of(specimens);
   if (found.alarm) {
     Combination(specimens, factors).explain(found);
   } else {

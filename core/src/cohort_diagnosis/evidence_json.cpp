@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using diagnosis::Verdict;
 
-constexpr int record_format = 1;
+constexpr int record_format = 2;
 
 /// What is wrong with a record, for the sentence that says so.
 struct NoRecord : std::runtime_error {
@@ -84,6 +84,13 @@ Profile profile_from(const Json& json) {
   return profile;
 }
 
+budget::Tolerance::Origin origin_from(const std::string& code) {
+  using Origin = budget::Tolerance::Origin;
+  for (const Origin one : {Origin::stated, Origin::repeats, Origin::standard})
+    if (code == budget::code_of(one)) return one;
+  throw NoRecord("an origin of a tolerance that there is not");
+}
+
 /// What later stages index by.
 void check(const SpecimenEvidence& specimen) {
   const std::size_t all = specimen.vectors + specimen.shapes.size();
@@ -114,12 +121,20 @@ Json to_json(const SpecimenEvidence& specimen) {
             {"p_after", specimen.p_after},
             {"rows", specimen.rows},
             {"squares", specimen.squares},
+            {"rms", specimen.rms},
+            {"rms_upper", specimen.rms_upper},
+            {"tolerance", specimen.tolerance},
+            {"tolerance_origin", budget::code_of(specimen.tolerance_origin)},
+            {"outlines", Json::array()},
             {"profiles", Json::array()},
             {"shapes", specimen.shapes},
             {"vectors", specimen.vectors},
             {"likeness", specimen.likeness.triangle()},
             {"left", specimen.left}};
   for (const OwnRank& one : specimen.ranking) json["ranking"].push_back(Json::array({one.id, one.probability}));
+  for (const Outline& one : specimen.outlines)
+    json["outlines"].push_back(
+        Json::array({one.test, one.channel, one.rows, one.range, one.rms, one.from, one.to, one.values}));
   for (const Profile& profile : specimen.profiles) json["profiles"].push_back(to_json(profile));
   return json;
 }
@@ -148,6 +163,15 @@ SpecimenEvidence evidence_from_json(const Json& json, const std::string& where) 
     found.p_after = json.at("p_after").get<double>();
     found.rows = json.at("rows").get<std::size_t>();
     found.squares = json.at("squares").get<double>();
+    found.rms = json.at("rms").get<double>();
+    found.rms_upper = json.at("rms_upper").get<double>();
+    found.tolerance = json.at("tolerance").get<double>();
+    found.tolerance_origin = origin_from(json.at("tolerance_origin").get<std::string>());
+    for (const Json& one : json.at("outlines"))
+      found.outlines.push_back({one.at(0).get<std::string>(), one.at(1).get<std::string>(),
+                                one.at(2).get<std::size_t>(), one.at(3).get<double>(), one.at(4).get<double>(),
+                                one.at(5).get<double>(), one.at(6).get<double>(),
+                                one.at(7).get<std::vector<double>>()});
     for (const Json& one : json.at("profiles")) found.profiles.push_back(profile_from(one));
     found.shapes = json.at("shapes").get<std::vector<double>>();
     found.vectors = json.at("vectors").get<std::size_t>();

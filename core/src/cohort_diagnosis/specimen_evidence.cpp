@@ -330,6 +330,14 @@ void own_answer(const diagnosis::Diagnosis& diagnosis, SpecimenEvidence& found) 
   found.p_after = explanation.p_after;
   found.rows = static_cast<std::size_t>(diagnosis.analysis.evidence.fit.residuals.size());
   found.squares = diagnosis.analysis.evidence.fit.chi2;
+  const diagnosis::Evidence& evidence = diagnosis.analysis.evidence;
+  const budget::Size size = budget::MisfitSize(evidence).of(evidence.fit);
+  const budget::Tolerance tolerance = budget::tolerance_of(diagnosis.request, evidence);
+  found.rms = size.rms;
+  found.rms_upper = size.upper;
+  found.tolerance = tolerance.share;
+  found.tolerance_origin = tolerance.origin;
+  found.outlines = outlines_of(evidence);
 }
 
 }  // namespace

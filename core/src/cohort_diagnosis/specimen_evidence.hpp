@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cohort_diagnosis/outlines.hpp"
 #include "cohort_diagnosis/profile.hpp"
 #include "diagnosis/diagnosis.hpp"
 
@@ -48,7 +49,11 @@ struct SpecimenEvidence {
   std::vector<OwnRank> ranking;                 ///< of the likeliest singles; empty without an alarm
   double p_after = 1;                           ///< of what its own explanation leaves
   std::size_t rows = 0;
-  double squares = 0;  ///< |r|² of the base fit
+  double squares = 0;             ///< |r|² of the base fit
+  double rms = 0, rms_upper = 0;  ///< of its misfit beyond noise, as a share of the range; the bound has 95 %
+  double tolerance = 0.02;        ///< what the specimen's own file says of it
+  budget::Tolerance::Origin tolerance_origin = budget::Tolerance::Origin::standard;
+  std::vector<Outline> outlines;
   std::vector<Profile> profiles;
   std::vector<double> shapes;  ///< b = B̃ᵀr of smooth shapes; their vectors stand behind those of the profiles
   std::size_t vectors = 0;     ///< of profiles
