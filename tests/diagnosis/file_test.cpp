@@ -145,7 +145,9 @@ void expect_found(const Diagnosis& found, FileKind kind, const std::vector<std::
   });
   EXPECT_TRUE(there) << diagnosis::summary(found).plain();
   EXPECT_NE(found.explanation.verdict, Verdict::named);
-  if (file.standing == FileStanding::ahead) EXPECT_EQ(found.explanation.verdict, Verdict::suspect_data);
+  if (file.standing == FileStanding::ahead) {
+    EXPECT_EQ(found.explanation.verdict, Verdict::suspect_data);
+  }
 }
 
 const std::vector<std::string> everything{"axial", "circumferential", "sheet_1", "sheet_2", "sheet_3"};

@@ -12,6 +12,7 @@
 #include "budget/budget.hpp"
 #include "budget/output/outputs.hpp"
 #include "diagnosis/naming/causes.hpp"
+#include "diagnosis/naming/unseen_rivals.hpp"
 #include "diagnosis/prospects/gain.hpp"
 
 namespace tunica::budget {
@@ -218,7 +219,7 @@ bool only_mechanisms(const Mixture& mixture) {
 diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experiment& experiment,
                                      const plugins::Catalogue& catalogue, diagnosis::Diagnosis d) {
   if (budget.contenders.empty()) return d;
-  const Decision decision = decided(budget);
+  Decision decision = decided(budget);
   Explanation& explanation = d.explanation;
   if (decision.verdict == Verdict::unknown) {
     if (explanation.verdict == Verdict::discovered) return d;
@@ -233,11 +234,15 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
     });
     return d;
   }
-  explanation.verdict = decision.verdict;
-  withdraw_causes(d);
   const experiment::Experiment measured = experiment::measured_only(experiment);
   const diagnosis::Progress quiet;
   const diagnosis::Inquiry inquiry{measured, d.request, catalogue, quiet};
+  std::vector<std::string> unseen;
+  if (const Contender& first = *decision.first.front(); decision.verdict == Verdict::leading && !first.term)
+    unseen = diagnosis::unseen_rivals(inquiry, d.analysis.hypotheses, first.id);
+  if (!unseen.empty()) decision.verdict = Verdict::indistinguishable;
+  explanation.verdict = decision.verdict;
+  withdraw_causes(d);
   const auto isolating = [&](const std::string& id) -> std::string {
     const auto found = catalogue.mechanisms().find(id);
     return found == catalogue.mechanisms().end() || found->second.factory.isolated_by.empty()
@@ -260,6 +265,7 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
     return d;
   }
   explanation.reasons = {{ReasonKind::several_lead, tie_words(budget, decision)}};
+  if (!unseen.empty()) explanation.reasons.push_back(diagnosis::not_looked_for(unseen));
   add_anisotropy(budget, explanation);
   std::vector<std::string> how;
   std::set<std::string> sorts;
@@ -269,6 +275,7 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
     explanation.claim.look_alikes.push_back({one->id});
     if (std::string text = isolating(one->id); !text.empty()) how.push_back(std::move(text));
   }
+  for (std::string& rival : unseen) explanation.claim.ambiguity_set.push_back(std::move(rival));
   if (!how.empty())
     d.prospects.next = diagnosis::NextExperiment{
         fmt::format("To tell them apart, a test that switches one of them alone: {}.", fmt::join(how, "; ")),

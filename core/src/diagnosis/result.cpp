@@ -40,6 +40,8 @@ const char* code_of(ReasonKind kind) {
       return "unlisted_misfit";
     case ReasonKind::anisotropy_seen:
       return "anisotropy_seen";
+    case ReasonKind::rival_not_looked_for:
+      return "rival_not_looked_for";
     case ReasonKind::terms_discovered:
       return "terms_discovered";
     case ReasonKind::no_trace:
@@ -195,6 +197,8 @@ const char* code_of(WarningKind kind) {
       return "record";
     case WarningKind::run_differs_in_noise:
       return "run_differs_in_noise";
+    case WarningKind::run_takes_file_order:
+      return "run_takes_file_order";
     case WarningKind::run_keeps_gross_rows:
       return "run_keeps_gross_rows";
     case WarningKind::base_model:

@@ -47,7 +47,8 @@ enum class ReasonKind {
   leads,
   several_lead,
   unlisted_misfit,
-  anisotropy_seen
+  anisotropy_seen,
+  rival_not_looked_for
 };
 const char* code_of(ReasonKind kind);
 
@@ -74,7 +75,8 @@ enum class WarningKind {
   order_assumed,
   record,
   run_differs_in_noise,
-  run_keeps_gross_rows
+  run_keeps_gross_rows,
+  run_takes_file_order
 };
 const char* code_of(WarningKind kind);
 

@@ -95,7 +95,7 @@ class CandidateSearch {
     return found != pasts_.end() &&
            (found->second == data::Past::order_unknown || group_of(mechanism) == CauseGroup::material);
   }
-  /// The tests of the model without a past: a material remembers in all of them, or in none.
+  /// The tests of the model without a past.
   [[nodiscard]] std::vector<std::string> forgotten_in(const MechanismFactory& mechanism,
                                                       const std::string& model) const {
     std::vector<std::string> tests;
@@ -105,6 +105,19 @@ class CandidateSearch {
         tests.push_back(test);
     }
     return tests;
+  }
+
+  /// Whether a memory of the model shows in a test whose past is known, while the others can take part as a first
+  /// loading: their rows of unknown order stand by their values, and without time the material is in equilibrium.
+  [[nodiscard]] bool remembers_elsewhere(const std::string& model, const std::vector<std::string>& forgotten) const {
+    if (std::any_of(forgotten.begin(), forgotten.end(),
+                    [&](const std::string& test) { return pasts_.at(test) != data::Past::order_unknown; }))
+      return false;
+    return std::any_of(run_.tests.begin(), run_.tests.end(), [&](const std::string& test) {
+      const std::vector<std::string> models = assembly::models_of_test(experiment_.test(test), run_);
+      return std::find(models.begin(), models.end(), model) != models.end() && !pasts_.contains(test) &&
+             unloads(base_, test);
+    });
   }
 
   /// The models, or the tests and channels, that have not got it yet; the candidate says why there is nowhere.
@@ -128,7 +141,7 @@ class CandidateSearch {
         if (has_it || lacks_directions(mechanism, name)) continue;
         const std::vector<std::string> forgotten = forgotten_in(mechanism, name);
         candidate.without_past.insert(forgotten.begin(), forgotten.end());
-        if (!forgotten.empty()) continue;
+        if (!forgotten.empty() && !remembers_elsewhere(name, forgotten)) continue;
         Place material;
         if (models.size() > 1) material.model = name;
         materials.push_back(std::move(material));

@@ -38,7 +38,7 @@ std::vector<Column> columns_of(const data::Dataset& data, const std::vector<Obse
 std::string table_of(const std::vector<Column>& columns, std::size_t rows) {
   std::string text;
   for (const Column& column : columns)
-    text += (text.empty() ? "" : ",") + text::csv_cell(text::titled(column.observable, column.unit));
+    text += fmt::format("{}{}", text.empty() ? "" : ",", text::csv_cell(text::titled(column.observable, column.unit)));
   text += '\n';
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t k = 0; k < columns.size(); ++k) {

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "assembly/memory.hpp"
+
 namespace tunica::diagnosis {
 namespace {
 
@@ -48,12 +50,28 @@ std::optional<Warning> kept_gross_rows(const Evidence& evidence, const Explanati
                              fmt::join(kept, "; "))};
 }
 
+/// Rows of unknown order are a first loading here.
+std::optional<Warning> assumed_first_loading(const Inquiry& inquiry, const Evidence& evidence, const Refit& best) {
+  const bool remembers = std::any_of(best.additions.begin(), best.additions.end(), [&](const Addition& one) {
+    return one.place.tests.empty() && assembly::has_memory(inquiry.mechanism(one.id));
+  });
+  std::vector<assembly::TestPast> pasts;
+  if (remembers) pasts = assembly::unknown_pasts(evidence.experiment, evidence.run, inquiry.catalogue);
+  if (pasts.empty()) return std::nullopt;
+  return Warning{WarningKind::run_takes_file_order,
+                 fmt::format("the rows of some tests are taken as a first loading, by rising load; a run of "
+                             "extended.json takes them in the order of their file: {}",
+                             assembly::words_of(pasts))};
+}
+
 }  // namespace
 
 std::vector<Warning> extended_run_warnings(const Inquiry& inquiry, const Evidence& evidence,
                                            const Explanation& explanation) {
   std::vector<Warning> warnings;
   if (auto warning = noise_difference(inquiry, evidence, *explanation.claim.best))
+    warnings.push_back(std::move(*warning));
+  if (auto warning = assumed_first_loading(inquiry, evidence, *explanation.claim.best))
     warnings.push_back(std::move(*warning));
   if (auto warning = kept_gross_rows(evidence, explanation)) warnings.push_back(std::move(*warning));
   return warnings;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/naming/unseen_rivals.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "assembly/memory.hpp"
+#include "text/lists.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+bool is_declared(const MechanismFactory& mechanism, const std::string& look_alike) {
+  return std::find(mechanism.look_alikes.begin(), mechanism.look_alikes.end(), look_alike) !=
+         mechanism.look_alikes.end();
+}
+
+}  // namespace
+
+std::vector<std::string> unseen_rivals(const Inquiry& inquiry, const Hypotheses& hypotheses, const std::string& id) {
+  std::vector<std::string> rivals;
+  const MechanismFactory& mechanism = inquiry.mechanism(id);
+  if (!assembly::has_memory(mechanism)) return rivals;
+  for (const Candidate& one : hypotheses.candidates)
+    if ((one.absence == Absence::no_clock || one.absence == Absence::no_past) && is_declared(mechanism, one.id) &&
+        is_declared(*one.mechanism, id))
+      rivals.push_back(one.id);
+  return rivals;
+}
+
+Reason not_looked_for(const std::vector<std::string>& rivals) {
+  return {ReasonKind::rival_not_looked_for,
+          fmt::format("{} may act alike and {} not looked for, because order or time of some rows is not known",
+                      text::joined(rivals), text::agreeing(rivals.size(), "was", "were"))};
+}
+
+void limit_by_unseen_rivals(const Inquiry& inquiry, const Hypotheses& hypotheses, Explanation& explanation) {
+  if (explanation.verdict != Verdict::named) return;
+  Claim& claim = explanation.claim;
+  std::vector<std::string> unseen;
+  for (std::size_t k = 0; k < claim.named; ++k)
+    for (std::string& rival : unseen_rivals(inquiry, hypotheses, claim.causes[k].id))
+      if (std::find(unseen.begin(), unseen.end(), rival) == unseen.end()) unseen.push_back(std::move(rival));
+  if (unseen.empty()) return;
+  explanation.verdict = Verdict::indistinguishable;
+  explanation.reasons.insert(explanation.reasons.begin(), not_looked_for(unseen));
+  for (const std::string& rival : unseen) {
+    claim.ambiguity_set.push_back(rival);
+    if (!claim.look_alikes.empty()) claim.look_alikes.push_back({rival});
+  }
+}
+
+}  // namespace tunica::diagnosis
