@@ -20,8 +20,12 @@ namespace {
 double noncentrality_bound(double squares, double freedom) {
   constexpr double level = 0.05, quantile = 1.645, plain = 2000;
   if (!(freedom > 0)) return squares;
-  // √χ² is nearly Gaussian with variance 1 where it is large; the exact series is slow there.
-  if (squares > plain) return std::max(std::pow(std::sqrt(squares) + quantile, 2) - freedom, 0.0);
+  // Nearly Gaussian where it is large, and the exact series is slow there: with d = x − ν,
+  //   λ − d = q √(2ν + 4λ).
+  if (squares > plain) {
+    const double q2 = quantile * quantile, d = squares - freedom, root = 4 * d + 4 * q2 + 2 * freedom;
+    return root > 0 ? std::max(d + 2 * q2 + quantile * std::sqrt(root), 0.0) : 0;
+  }
   if (!(squares > 0)) return 0;
   // Below the 5 % point of the central distribution no noncentrality is small enough.
   if (numerics::chi_squared_below(squares, freedom) < level) return 0;

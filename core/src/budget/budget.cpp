@@ -62,8 +62,8 @@ std::vector<std::string> ids_of(const std::vector<diagnosis::Addition>& addition
 std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis) {
   std::vector<Budget::Untried> ids;
   for (const diagnosis::Candidate& one : analysis.hypotheses.candidates)
-    if (one.absence == diagnosis::Absence::no_clock || one.absence == diagnosis::Absence::no_past ||
-        !one.without_past.empty())
+    if (one.hypotheses.empty() && (one.absence == diagnosis::Absence::no_clock ||
+                                   one.absence == diagnosis::Absence::no_past || !one.without_past.empty()))
       ids.push_back({one.id, one.absence == diagnosis::Absence::no_clock});
   return ids;
 }
@@ -128,6 +128,12 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
     budget.contenders.push_back({one.id, one.sort, one.place, one.group, one.term, one.in_the_energy, one.share,
                                  one.probability, one.rest, one.belief});
   budget.not_looked_for = not_looked_for(analysis);
+  for (const diagnosis::FileCause& one : d.explanation.file.causes) {
+    diagnosis::Fit read = analysis.evidence.fit;
+    read.chi2 = one.squares;
+    const double share = 1 - size.squares(read) / std::max(size.squares(analysis.evidence.fit), 1e-300);
+    if (share > budget.of_file.share) budget.of_file = {one.sentence, one.mend, share};
+  }
   if (subject && diagnosis::is_isotropic(analysis.evidence.base->models().model(0)))
     budget.anisotropy = diagnosis::anisotropy_words(analysis.evidence, budget.tolerance.share);
   Steps steps = steps_of(field, entrants, budget.tolerance.share);

@@ -33,6 +33,11 @@ struct Budget {
   double unlisted_probability = 0;     ///< of "no listed cause, only a smooth misfit"; of meaning with contenders
   bool rough = false;                  ///< what is left is rougher than an unlisted misfit may be: no name is given
   std::optional<Contender> lead;       ///< with_verdict_of() sets it where one cause leads
+  /// What takes most of the misfit if the file does not say what is so; share 0: nothing.
+  struct {
+    std::string sentence, mend;
+    double share = 0;
+  } of_file;
   bool adequate = false;               ///< the bound of the rest is within the tolerance
   std::string anisotropy;              ///< what the data say of directions that the base lacks; empty: nothing
   std::string same_model;              ///< the registered model that the base with its causes is; empty: none

@@ -18,8 +18,9 @@ using diagnosis::Verdict;
 using discovery::Alternative;
 using discovery::Discovery;
 
-constexpr double nearly_all = 0.9;      ///< of the misfit
-constexpr double sure_invariant = 0.9;  ///< of an invariant, with what is left as the noise
+constexpr double as_much_as_terms = 0.15;  ///< of the misfit
+constexpr double nearly_all = 0.9;         ///< of the misfit
+constexpr double sure_invariant = 0.9;     ///< of an invariant, with what is left as the noise
 
 std::set<std::string> invariants_of(const Alternative& one) {
   std::set<std::string> words;
@@ -59,6 +60,15 @@ std::string leading_words(const Discovery& found) {
   const Size rest = size.of(found.best->fit);
   const double share = 1 - after / std::max(before, 1e-300);
   constexpr double nearly = 1.5;
+  // What is within the tolerance needs no term, and an error of the rig or memory that takes about as much is a rival.
+  if (size.of(evidence.fit).rms <= tolerance.share && !found.request.from_nothing) return "";
+  for (const discovery::Rival& rival : found.rivals) {
+    diagnosis::Fit left = evidence.fit;
+    left.chi2 = rival.chi2;
+    if (!rival.in_the_energy && rival.plausible &&
+        1 - size.squares(left) / std::max(before, 1e-300) > share - as_much_as_terms)
+      return "";
+  }
   if (share < nearly_all || (found.request.from_nothing && rest.rms > nearly * tolerance.share)) return "";
   const auto sure = sure_invariants(found, static_cast<double>(evidence.fit.residuals.size()));
   if (sure.empty()) return "";

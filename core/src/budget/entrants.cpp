@@ -244,14 +244,15 @@ Belief belief_of(const Field& field, const Mixture& mixture, std::size_t member)
   const auto variables = mixture.extension->variables();
   const auto at = std::find(variables.begin(), variables.end(), amplitude) - variables.begin();
   const bool at_bound = mixture.fit.at_bound[static_cast<std::size_t>(at)];
-  if (!mixture.members[member].mechanism) return at_bound ? Belief::beyond : Belief::plausible;
+  if (at_bound) return Belief::beyond;
+  if (!mixture.members[member].mechanism) return Belief::plausible;
   const diagnosis::Addition& addition = *mixture.members[member].mechanism;
   const MechanismFactory& mechanism = field.inquiry.mechanism(addition.id);
   const auto range = diagnosis::range_of(mechanism, addition);
   const double value = mixture.fit.free[amplitude.front()] - mechanism.null;
   const double low = range.plausible_min - mechanism.null, high = range.plausible_max - mechanism.null;
   if (value >= low && value <= high) return Belief::plausible;
-  return at_bound || value < half_again * low || value > half_again * high ? Belief::beyond : Belief::flagged;
+  return value < half_again * low || value > half_again * high ? Belief::beyond : Belief::flagged;
 }
 
 Entrants entrants_of(Field& field) {
@@ -322,7 +323,10 @@ Entrants entrants_of(Field& field) {
   for (const unsigned degree : degrees) {
     field.unlisted = std::make_shared<const UnlistedMisfit>(evidence, degree);
     const UnlistedMisfit::Rough rough = field.unlisted->rough(left);
-    if (rough.squares < as_rough_as_noise * rough.expected) break;
+    if (rough.squares < as_rough_as_noise * rough.expected) {
+      found.rough = false;
+      break;
+    }
     found.rough = rough.squares - rough.expected > rough_share * misfit;
     // Rough as it is, it is little: noise that large explains it.
     if (degree == degrees.back())

@@ -17,6 +17,7 @@ constexpr std::size_t quick_leads = 6, full_leads = 12;  ///< that are fitted at
 constexpr std::size_t laws_at_a_step = 2;
 constexpr std::size_t in_exchange = 3;   ///< leads that each member makes room for
 constexpr double worth_a_step = 0.01;    ///< of the misfit
+constexpr double about_as_much = 0.15;   ///< of the misfit
 constexpr double worth_an_exchange = 1;  ///< of ln p
 
 struct Weighed {
@@ -47,8 +48,13 @@ class StepSearch {
     current.log_weight = log_evidence(field_, current.mixture);
     std::vector<Mixture> path;
     const Entrant* first = nullptr;
+    // What may lead comes first: it takes about as much as any cause that can be believed.
+    double most = 0;
     for (const Entrant& one : entrants.all)
-      if (one.mixture && (!first || one.log_evidence > first->log_evidence)) first = &one;
+      if (one.mixture && one.belief != Belief::beyond) most = std::max(most, one.share);
+    for (const Entrant& one : entrants.all)
+      if (one.mixture && one.share >= most - about_as_much && (!first || one.log_evidence > first->log_evidence))
+        first = &one;
     while (path.size() < most_steps && field_.size.of(current.mixture.fit).rms > tolerance_) {
       std::optional<Weighed> next;
       if (path.empty() && first)

@@ -57,10 +57,25 @@ Decision leading_by_steps(const Budget& budget, Decision decision) {
   return decision;
 }
 
+/// What leads where one test with parameters of its own competes with causes that are listed. It takes what any of them
+/// takes there: it goes where they are sure without it and take as much, and leads where it is sure by itself.
+std::vector<const Contender*> with_another_state_judged(std::vector<const Contender*> ties) {
+  constexpr double as_much = 0.05;
+  const auto is_state = [](const Contender* one) { return one->id == "another_state"; };
+  std::vector<const Contender*> listed, states;
+  std::partition_copy(ties.begin(), ties.end(), std::back_inserter(states), std::back_inserter(listed), is_state);
+  if (states.empty()) return ties;
+  double most = 0, listed_most = 0;
+  for (const Contender* one : states) most = std::max(most, one->share);
+  for (const Contender* one : listed)
+    if (one->belief != Belief::beyond) listed_most = std::max(listed_most, one->share);
+  if (probability_of(listed) >= sure_enough && listed_most >= most - as_much) return listed;
+  return probability_of(states) >= sure_enough ? states : ties;
+}
+
 Decision decided(const Budget& budget) {
   Decision decision;
-  // A misfit within the tolerance has no step that is worth taking.
-  if (budget.steps.empty()) return decision;
+  if (budget.base.rms <= budget.tolerance.share) return decision;
   const Contender* top = nullptr;
   for (const Contender& one : budget.contenders)
     if (one.belief != Belief::beyond && (top == nullptr || one.share > top->share)) top = &one;
@@ -78,11 +93,10 @@ Decision decided(const Budget& budget) {
     if (one.share >= top->share - ahead && !unlikely_form && !no_rival) ties.push_back(&one);
   }
   if (top->share < most_of_it) return leading_by_steps(budget, std::move(decision));
-  if (probability_of(ties) < sure_enough) return decision;
-  // A cause that lets one test have a material of its own takes what any other takes there: it is named where nothing
-  // that is listed does so.
-  if (std::any_of(ties.begin(), ties.end(), [](const Contender* one) { return one->id != "another_state"; }))
-    std::erase_if(ties, [](const Contender* one) { return one->id == "another_state"; });
+  ties = with_another_state_judged(std::move(ties));
+  const bool believed =
+      std::any_of(ties.begin(), ties.end(), [](const Contender* one) { return one->belief != Belief::beyond; });
+  if (!believed || probability_of(ties) < sure_enough) return decision;
   std::set<std::string> sorts;
   for (const Contender* one : ties) sorts.insert(one->sort);
   std::stable_sort(ties.begin(), ties.end(), [](const Contender* a, const Contender* b) {
@@ -134,7 +148,17 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
                                  like, place_of(first.place), percent(share_of(budget, first)));
   if (first.belief == Belief::flagged) text += ", with an amplitude somewhat beyond what is plausible";
   if (!forms.empty()) text += fmt::format("; its form is open ({} alone)", fmt::join(forms, ", "));
-  return text + "; " + remains(budget.rest(), budget.tolerance);
+  std::vector<std::string> others;
+  std::size_t own = 0;
+  for (const Step& step : budget.steps) {
+    if (step.id == first.id)
+      ++own;
+    else
+      others.push_back(step.id);
+  }
+  if (others.empty()) return text + "; " + remains(budget.rest(), budget.tolerance);
+  if (own <= 1) text += fmt::format(" and leaves {} of the range", percent(first.rest.rms));
+  return fmt::format("{}; with {}, {}", text, fmt::join(others, " and "), remains(budget.rest(), budget.tolerance));
 }
 
 std::string tie_words(const Budget& budget, const Decision& decision) {
@@ -209,6 +233,18 @@ void withdraw_causes(diagnosis::Diagnosis& d) {
   d.prospects.next.reset();
 }
 
+/// Read otherwise, the file takes far more of the misfit than any cause: no cause is named, and the question stands
+/// first.
+void ask_of_the_file(const Budget& budget, diagnosis::Diagnosis& d) {
+  withdraw_causes(d);
+  d.explanation.verdict = Verdict::indistinguishable;
+  d.explanation.reasons = {
+      {ReasonKind::file_as_likely,
+       fmt::format("is what the file says so? If {}, {} of the misfit is gone, and no cause takes as much; try {}",
+                   budget.of_file.sentence, percent(budget.of_file.share), budget.of_file.mend)},
+      {ReasonKind::unlisted_misfit, unknown_words(budget)}};
+}
+
 bool only_mechanisms(const Mixture& mixture) {
   return std::all_of(mixture.members.begin(), mixture.members.end(),
                      [](const Member& member) { return member.mechanism.has_value(); });
@@ -221,6 +257,11 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
   if (budget.contenders.empty()) return d;
   Decision decision = decided(budget);
   Explanation& explanation = d.explanation;
+  if (const double most = decision.first.empty() ? budget.contenders.front().share : decision.first.front()->share;
+      budget.of_file.share >= std::max(most_of_it, most + ahead)) {
+    ask_of_the_file(budget, d);
+    return d;
+  }
   if (decision.verdict == Verdict::unknown) {
     if (explanation.verdict == Verdict::discovered) return d;
     explanation.reasons = {{ReasonKind::unlisted_misfit, unknown_words(budget)}};

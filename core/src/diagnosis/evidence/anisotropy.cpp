@@ -53,15 +53,22 @@ const std::vector<double>* stretch_along(const MeasuredChannel& view, const std:
   return nullptr;
 }
 
-/// A measured curve: its rows by rising stretch.
+/// A first loading: its rows by rising distance from rest.
 using Points = std::vector<std::pair<double, double>>;
+
+/// Of rows in loading order those that go further than all before: no unloading, no later cycle, no hold.
+void add(Points& points, double stretch, double value) {
+  constexpr double rest = 1;
+  if (points.empty() || std::abs(stretch - rest) > std::abs(points.back().first - rest))
+    points.emplace_back(stretch, value);
+}
 
 /// The value at a stretch on a rising curve, between neighbouring points; none outside.
 std::optional<double> at(const Points& points, double stretch) {
   for (std::size_t k = 1; k < points.size(); ++k) {
     const auto& [a, low] = points[k - 1];
     const auto& [b, high] = points[k];
-    if (b > a && stretch >= a && stretch <= b) return low + (high - low) * (stretch - a) / (b - a);
+    if (stretch >= std::min(a, b) && stretch <= std::max(a, b)) return low + (high - low) * (stretch - a) / (b - a);
   }
   return std::nullopt;
 }
@@ -89,7 +96,7 @@ Points equally_stretched(const MeasuredChannel& view) {
   for (std::size_t row = 0; row < view.count; ++row)
     if (const double u = (*first)[row], v = (*second)[row];
         view.fitted[row] && std::abs(u - v) <= same_stretch * std::abs(u - 1))
-      points.emplace_back(u, view.measured[row]);
+      add(points, u, view.measured[row]);
   return points;
 }
 
@@ -97,7 +104,7 @@ Points equally_stretched(const MeasuredChannel& view) {
 Points pulled(const MeasuredChannel& view) {
   Points points;
   for (std::size_t row = 0; row < view.count; ++row)
-    if (view.fitted[row]) points.emplace_back(view.abscissa[row], view.measured[row]);
+    if (view.fitted[row]) add(points, view.abscissa[row], view.measured[row]);
   return points;
 }
 
