@@ -120,7 +120,7 @@ TEST(Estimate, SaysWhatMaxTimeLeftOut) {
   const auto estimate = [&](plugins::Clock::time_point deadline, std::vector<execution::Warning>& warnings) {
     comparison::RunSummary summary;
     summary.tests = run.entry->tests;
-    comparison::estimate(*run.assembly, best, both, summary, warnings, deadline);
+    comparison::estimate(*ended.plan->experiment, *run.assembly, best, both, summary, warnings, deadline);
     return summary;
   };
   std::vector<execution::Warning> none, said;
