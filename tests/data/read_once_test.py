@@ -14,7 +14,7 @@ import tempfile
 
 def opened(command, trace):
     """How often each CSV file was opened by one process, by its name: the program, or the fresh one that certifies a run."""
-    ended = subprocess.run(["strace", "-f", "--seccomp-bpf", "-qq", "-e", "signal=none", "-e", "trace=openat,open", "-o", trace, *command],
+    ended = subprocess.run(["strace", "-f", "--seccomp-bpf", "-qq", "-e", "signal=none", "-e", "trace=openat,open,execve", "-o", trace, *command],
                            check=False, capture_output=True, text=True)
     if ended.returncode not in (0, 1):
         raise SystemExit(f"{' '.join(command)}: ended with {ended.returncode}\n{ended.stdout}{ended.stderr}")
