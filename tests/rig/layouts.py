@@ -95,10 +95,40 @@ ACCEPTED = [
     ("biotester_marks.csv", ("--thickness", "0.8 mm", "--width", "5 mm"),
      {"time": "Time_S", "force_circumferential": "XForce_mN", "force_axial": "YForce_mN", "displacement_circumferential":
       "XDisplacement_um", "displacement_axial": "YDisplacement_um"}, {}, "gauge length 5000 um"),
+    ("deben_microtest.MTR", (*GAUGED, "--unit", "Elongation=mm", "--unit", "Force=N"),
+     {"displacement": "Elongation", "force": "Force"}, {"Elongation": "mm"}, "'Position' (displacement)"),
+    ("catman.ASC", GAUGED, {"time": "Zeit  1 - Standardmessrate", "force": "Kraft", "displacement": "Standardwegaufnehmer"}, {},
+     "not used: 'Maytec'"),
+    ("exponent.tab", GAUGED, {"time": "Time", "displacement": "Distance", "force": "Force"}, {}, "from 'Force' in gf"),
+    ("mecmesin_raw.txt", GAUGED, {"time": "Time", "displacement": "Displacement", "force": "Load"}, {}, "from 'Load' in gf"),
+    ("bluehill_cyclic_compression.csv", ("--diameter", "14mm", "--height", "21mm", "--compression", "negative"),
+     {"time": "Time", "displacement": "Extension", "force": "Load"}, {}, "the last loading is taken"),
+    ("vic_lagrange.csv", (*STRIP, "--column", "green_strain=eyy [1] - Lagrange"),
+     {"green_strain": "eyy [1] - Lagrange", "force": "Force"}, {}, "'exx [1] - Lagrange' (strain)"),
+    ("labchart_stars.txt", GAUGED, {"time": "Time", "displacement": "Displacement", "force": "Force"}, {}, "not used: 'Trigger'"),
+    ("metadata_table.csv", GAUGED, {"time": "Time", "displacement": "Displacement", "force": "Force"}, {}, "names in line 3"),
+    ("mts_crosshead.txt", GAUGED, {"displacement": "Crosshead", "force": "Load", "time": "Time"}, {}, "12 rows"),
+    ("aurora_dmc.ddf", (*GAUGED, "--column", "displacement=AI0"), {"time": "Time", "displacement": "AI0", "force": "AI1"}, {},
+     "from 'AI1' in mN"),
+    ("schmidt_gauge.csv", (*GAUGED, "--skip-lines", "2", "--column", "force=#1", "--column", "displacement=#3", "--unit", "#1=N",
+                           "--unit", "#3=mm"), {"force": 1, "displacement": 3}, {}, ""),
+    ("testxpert_steps.csv", GAUGED, {"time": 1, "force": "Kraft", "strain": "Nenndehnung"}, {},
+     "'Traverse absolut' (displacement), 'Nennspannung' (stress)"),
+    ("vic_lagrange.csv", (*STRIP, "--column", "strain=eyy [1] - Lagrange"),
+     {"green_strain": "eyy [1] - Lagrange", "force": "Force"}, {}, ""),
+    ("ncorr.csv", (*STRIP, "--column", "strain=Eyy", "--strain-measure", "green", "--unit", "Eyy=1"),
+     {"green_strain": "Eyy", "force": "force_N"}, {"force_N": "N"}, "'Exy' (shear strain)"),
+    ("mark10.csv", GAUGED, {"time": "Time", "displacement": "Travel", "force": "Load"}, {}, "not used: 'Reading'"),
+    ("electroforce_two_axes.csv", GAUGED, {"time": "Elapsed Time", "displacement": "Disp", "force": "Load"}, {},
+     "'Rotation' (an angle), 'Torque' (torque)"),
+    ("starrett.csv", GAUGED, {"time": "Time", "displacement": "Distance", "force": "Load"}, {}, "'% Strain' (strain)"),
+    ("testworks.txt", GAUGED, {"time": "Time", "displacement": "Extension", "force": "Load"}, {},
+     "'Stress' (stress), 'Strain' (strain)"),
 ]
 for name, options, columns, units, words in ACCEPTED:
     shutil.copy(layouts / name, folder / name)
     target = folder / (name + ".json")
+    target.unlink(missing_ok=True)  # of the same file with other options
     printed, said = rig.tunica(program, "import", folder / name, *options, "-o", target)
     said = " ".join((printed + said).split())
     block = next(iter(json.loads(target.read_text())["tests"].values()))["data"]
@@ -137,6 +167,24 @@ REFUSED = [
                              "--set", "axial_stretch=1"), "'Diameter change' (change of diameter)"),
     ("phalanx.txt", GAUGED, "no column is known to give 'stretch'"),
     ("sheet.xlsx", (), "a workbook"),
+    ("sheet.xls", (), "a workbook (.xls)"),
+    ("deben_microtest.MTR", GAUGED, "Unit of the column 'Elongation' (displacement)"),
+    ("bluehill_cyclic_compression.csv", ("--diameter", "14mm", "--height", "21mm"), "for example negative"),
+    ("rheowin.txt", GAUGED, "line 6: no column is known to give 'stretch'"),
+    ("vic_lagrange.csv", STRIP, "Column along the force: 'exx [1] - Lagrange' or 'eyy [1] - Lagrange'"),
+    ("vic_lagrange.csv", (*STRIP, "--column", "green_strain=eyy [1] - Lagrange", "--strain-measure", "true"),
+     "the column 'eyy [1] - Lagrange' says green"),
+    ("ncorr.csv", (*STRIP, "--column", "green_strain=Eyy", "--strain-measure", "true", "--unit", "Eyy=1"),
+     "and --strain-measure says that its strain is true"),
+    ("vic_lagrange.csv", (*STRIP, "--column", "true_strain=eyy [1] - Lagrange"), "its name says that its strain is green"),
+    ("optics11.txt", GAUGED, "No test here presses a tip into a surface"),
+    ("labchart_rings.txt", GAUGED, "'Channel 1', 'Channel 2'"),
+    ("aurora_dmc.ddf", GAUGED, "'AI0', 'AI1' (force)"),
+    ("schmidt_gauge.csv", GAUGED, "give columns by their number"),
+    ("flexure.csv", GAUGED, "the column 'Flex Stress' speaks of bending"),
+    ("trios_growth.txt", GAUGED, "the column 'Shear rate' is one of a rheometer"),
+    ("rheocompass.csv", GAUGED, "beyond the last of the 2 columns the header names"),
+    ("rheocompass.csv", (*GAUGED, "--skip-lines", "5"), "is one of a rheometer"),
 ]
 for name, options, words in REFUSED:
     shutil.copy(layouts / name, folder / name)
@@ -155,6 +203,38 @@ assert "the test takes the reduced one" in " ".join(printed.split()), printed
 printed, _ = rig.tunica(program, "check", folder / "aramis.csv.json")
 largest = float(" ".join(printed.split()).split("over stretch 1 … ")[1].split()[0].rstrip(","))
 assert abs(largest - (1 + 2.75 / 20)) < 1e-3, printed
+# Values in volts come to what they were made of, by scale and offset: 2.75 mm, 5.1219 N.
+printed, _ = rig.tunica(program, "check", folder / "aurora_dmc.ddf.json")
+largest = float(" ".join(printed.split()).split("over stretch 1 … ")[1].split()[0].rstrip(","))
+assert abs(largest - (1 + 2.75 / 20)) < 1e-3, printed
+bare = (folder / "aurora_dmc.ddf").read_text().replace("Scale (units/V)", "Scaled")
+(folder / "bare.ddf").write_text(bare)
+_, said = rig.tunica(program, "import", folder / "bare.ddf", *GAUGED, "--column", "displacement=AI0", "--unit", "AI0=mm", "-o",
+                     folder / "volts.json", code=2)
+assert "line 24: the rows are in volts" in " ".join(said.split()), said
+
+# Decimal commas are numbers too; a text among the volts is no voltage.
+volts = (folder / "aurora_dmc.ddf").read_text()
+(folder / "comma.ddf").write_text(volts.replace(".", ","))
+rig.tunica(program, "import", folder / "comma.ddf", *GAUGED, "--column", "displacement=AI0", "-o", folder / "comma.json")
+printed, _ = rig.tunica(program, "check", folder / "comma.json")
+assert "over stretch 1 … 1.137" in " ".join(printed.split()), printed
+(folder / "text.ddf").write_text(volts.replace("\n3\t", "\n3\tx"))
+_, said = rig.tunica(program, "import", folder / "text.ddf", *GAUGED, "--column", "displacement=AI0", "-o", folder / "text.json",
+                     code=2)
+assert "where a voltage is expected" in " ".join(said.split()), said
+
+# A second table below the first is named where the reader comes to it.
+_, said = rig.tunica(program, "import", folder.joinpath(shutil.copy(layouts / "trios_steps.txt", folder)), "--test",
+                     "simple_shear", "--column", "shear=Strain", "--column", "shear_stress=Stress", "-o",
+                     folder / "steps.json", code=2)
+assert "The names of the columns come again in line 30" in " ".join(said.split()), said
+
+# A name that speaks of bending is noticed where no column does.
+shutil.copy(layouts / "admet.csv", folder / "flexure_3.csv")
+printed, _ = rig.tunica(program, "import", folder / "flexure_3.csv", *GAUGED, "-o", folder / "flexure_3.json")
+assert "speaks of bending" in " ".join(printed.split()), printed
+
 # The direction of a strip: from the table of specimens, from the name of a file, from an option for one test.
 for stem in ("a", "Longitudinal_2", "c"):
     shutil.copy(layouts / "admet.csv", folder / f"{stem}.csv")
@@ -175,6 +255,33 @@ sizes = next(iter(json.loads((folder / "areas.json").read_text())["tests"].value
 assert sizes == {"area": "7.5 mm2", "gauge_length": "20 mm"}, sizes
 assert "mm2 is assumed" in " ".join(printed.split()), printed
 
+# How a file is laid out may be said, where it would be found otherwise or not at all.
+(folder / "bare.txt").write_text("made by a script\nway;load\n" + "".join(f"0,{k};1,{k}\n" for k in range(10)))
+printed, _ = rig.tunica(program, "import", folder / "bare.txt", *GAUGED, "--delimiter", ";", "--decimal", ",", "--skip-lines", "1",
+                        "--rows", "1:8", "--column", "displacement=way", "--column", "force=load", "--unit", "way=mm", "--unit",
+                        "load=N", "-o", folder / "bare.json")
+data = next(iter(json.loads((folder / "bare.json").read_text())["tests"].values()))["data"]
+assert (data["delimiter"], data["decimal"], data["skip_lines"], data["rows"]) == (";", ",", 1, "1:8"), data
+printed, _ = rig.tunica(program, "check", folder / "bare.json")
+assert "rows: 7 of the 10 in the file" in printed and "146.7 … 226.7 kPa" in printed, printed
+
+# Sizes that say two things are refused.
+for table, words in (
+    ("specimen,width [mm],thickness [mm]\nadmet,5,1.5\nadmet,6,1.5\n", "lines 2 and 3 both have the specimen 'admet'"),
+    ("specimen,width [mm],thickness [%]\nadmet,5,1.5\n", "'thickness' has the unit '%'"),
+    ("specimen,width [mm],thickness [mm],Width 2 [mm]\nadmet,5,1.5,6\n", "'Width 2' comes to 6 mm, and a column before it to 5 mm"),
+):
+    shutil.copy(layouts / "admet.csv", folder / "admet.csv")
+    (folder / "specimens.csv").write_text(table)
+    _, said = rig.tunica(program, "import", folder / "admet.csv", "--gauge-length", "20 mm", "--specimens",
+                         folder / "specimens.csv", "-o", folder / "sizes.json", code=2)
+    assert words in " ".join(said.split()), said
+(folder / "specimens.csv").write_text("specimen,width [mm],width sd [mm],thickness [mm]\nadmet,5,0.2,1.5\n")
+rig.tunica(program, "import", folder / "admet.csv", "--gauge-length", "20 mm", "--specimens", folder / "specimens.csv", "-o",
+           folder / "sizes.json")
+sizes = next(iter(json.loads((folder / "sizes.json").read_text())["tests"].values()))["data"]["specimen"]
+assert sizes["width"] == "5 mm", sizes
+
 # A sheet in two files; rows that do not go together are refused, and no table is left.
 for axis, scale in (("axial", 1.0), ("circ", 0.8)):
     (folder / f"sheet_{axis}.csv").write_text("Time (s),Force (N),Displacement (mm)\n" + "".join(
@@ -186,6 +293,17 @@ test = json.loads((folder / "joined.json").read_text())["tests"]["joined"]
 assert test["type"] == "biaxial" and test["data"]["columns"] == {
     "time": "Time", "force_circumferential": "Force circumferential", "displacement_circumferential":
     "Displacement circumferential", "force_axial": "Force axial", "displacement_axial": "Displacement axial"}, test
+for made in ("joined.json", "joined.csv"):
+    (folder / made).unlink()
+# Labels of rows come along, so that steps of a protocol can be told apart.
+for axis, scale in (("axial", 1.0), ("circ", 0.8)):
+    (folder / f"step_{axis}.csv").write_text("Step,Time (s),Force (N),Displacement (mm)\n" + "".join(
+        f"{'load' if k < 10 else 'hold'},{k},{scale * 0.1 * k * k:.3f},{0.1 * k:.1f}\n" for k in range(20)))
+rig.tunica(program, "import", folder / "step_circ.csv", folder / "step_axial.csv", "--join", "--where", "Step=load", "--thickness",
+           "1 mm", "--width", "10 mm", "--gauge-length", "10 mm", "-o", folder / "joined.json")
+assert (folder / "joined.csv").read_text().splitlines()[1].startswith('"Step"')
+test = json.loads((folder / "joined.json").read_text())["tests"]["joined"]
+assert test["data"]["where"] == {"Step": "load"}, test
 for made in ("joined.json", "joined.csv"):
     (folder / made).unlink()
 (folder / "sheet_axial.csv").write_text("Time (s),Force (N),Displacement (mm)\n" + "".join(

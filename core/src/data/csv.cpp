@@ -137,8 +137,17 @@ char sniff_delimiter(std::string_view header) {
   return tabs > 0 ? '\t' : semicolons > 0 ? ';' : commas > 0 ? ',' : ' ';
 }
 
+/// The unit of "exx [1] - Lagrange", whose name is the whole; none of another text.
+std::optional<std::string> unit_within(std::string_view text) {
+  const std::size_t open = text.find('['), close = text.find("] - ");
+  if (open == std::string_view::npos || close == std::string_view::npos || close < open) return std::nullopt;
+  const std::string_view unit = trimmed(text.substr(open + 1, close - open - 1));
+  return unit == "1" || stated_unit(unit) ? std::optional(std::string(unit)) : std::nullopt;
+}
+
 /// "stress [kPa]"; in round brackets only what is a unit: "stress (kPa)", not "stress (true)".
 Csv::Column header_cell(const std::string& text) {
+  if (const auto unit = unit_within(text)) return {text, text, unit};
   const bool round = text.ends_with(')');
   const std::size_t open = text.rfind(round ? '(' : '[');
   if (open == std::string::npos || !(round || text.back() == ']')) return {text, text, std::nullopt};
@@ -336,8 +345,18 @@ char Csv::decimal_mark(const std::vector<std::size_t>& of_columns) const {
 double Csv::number(const Row& row, std::size_t column, char decimal) const {
   const std::string& cell = row.cells[column];
   const auto refuse = [&](std::string_view found, std::string_view remedy) -> double {
-    throw InputError(
-        fmt::format("{}: found {} where a number is expected. {}", place(row.line, column), found, remedy));
+    const auto is_header = [this](const Row& other) {
+      return std::equal(other.cells.begin(), other.cells.end(), columns.begin(), columns.end(),
+                        [](const std::string& text, const Column& named) { return text == named.text; });
+    };
+    const auto again = std::find_if(rows.begin(), rows.end(), is_header);
+    throw InputError(fmt::format(
+        "{}: found {} where a number is expected. {}{}", place(row.line, column), found, remedy,
+        again == rows.end()
+            ? ""
+            : fmt::format(" The names of the columns come again in line {}: a second table begins there. Keep one of "
+                          "them in the file, or choose its rows.",
+                          again->line)));
   };
   constexpr std::string_view leave_out = "Correct the cell, or leave the row out with \"rows\" or \"where\".";
   if (cell.empty()) return refuse("an empty cell", leave_out);

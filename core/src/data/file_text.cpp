@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/dmc.hpp"
 #include "data/labchart.hpp"
 #include "tunica/error.hpp"
 
@@ -88,7 +89,8 @@ std::string_view text_of(const std::filesystem::path& file, std::string_view byt
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) bytes = decoded = from_utf16(bytes);
   refuse_encodings(file, bytes);
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  if (std::string table; labchart_as_table(file, bytes, table)) bytes = decoded = std::move(table);
+  if (std::string table; labchart_as_table(file, bytes, table) || dmc_as_table(file, bytes, table))
+    bytes = decoded = std::move(table);
   return bytes;
 }
 

@@ -36,7 +36,10 @@ std::vector<std::string_view> cells_of(std::string_view line, char delimiter) {
   std::size_t begin = 0;
   if (delimiter == ' ') line = trimmed(line);
   for (std::size_t at = 0; at <= line.size(); ++at) {
-    if (at < line.size() && line[at] == '"') quoted = !quoted;
+    // Within a cell a quote is a letter, as in the modulus G".
+    if (at < line.size() && line[at] == '"' &&
+        (quoted || trimmed(line.substr(begin, at - begin)).empty() || line[at - 1] == '"'))
+      quoted = !quoted;
     const bool separates =
         at < line.size() && !quoted && (line[at] == delimiter || (delimiter == ' ' && line[at] == '\t'));
     if (at < line.size() && !separates) continue;

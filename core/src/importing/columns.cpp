@@ -146,8 +146,12 @@ void guess_quantity(ColumnGuess& guess, const Words& words) {
                (has_any(words, {"=abs", "absolute", "absolue", "absolut"}) ? 2 : 0) +
                (has_any(words, {"extensometer", "=stage", "capteur", "aufnehmer"}) ? 1 : 0) -
                (has_any(words, {"=avg", "average", "=mean"}) ? 1 : 0);
+  if (has_any(words, {"shear"}) && has_any(words, {"=rate"})) {
+    guess.kind = shearing;
+    return;
+  }
   for (const auto& [word, kind] : other_words)
-    if (has_word(words, word)) {
+    if (has_word(words, word) && !(measures(guess.unit, "s") && has_any(words, {"time", "zeit"}))) {
       guess.kind = kind;
       return;
     }
@@ -267,12 +271,15 @@ std::vector<ColumnGuess> guess_columns(const data::Csv& csv) {
     }
     guesses.push_back(std::move(guess));
   }
-  // A name that says nothing: the unit may, where nothing else is a force or a time.
-  for (const auto& [base, quantity] : {std::pair{"mN", "force"}, std::pair{"s", "time"}})
+  // A name that says nothing: the unit may, where nothing else is a force or a time, and one column alone has it.
+  for (const auto& [base, quantity] : {std::pair{"mN", "force"}, std::pair{"s", "time"}}) {
+    std::vector<ColumnGuess*> of_unit;
     for (ColumnGuess& guess : guesses)
       if (guess.numeric && guess.kind.empty() && guess.different > 1 && !guess.unit.empty() &&
-          !has(guesses, quantity) && measures(guess.unit, base))
-        guess.kind = guess.quantity = quantity;
+          measures(guess.unit, base))
+        of_unit.push_back(&guess);
+    if (of_unit.size() == 1 && !has(guesses, quantity)) of_unit.front()->kind = of_unit.front()->quantity = quantity;
+  }
   number_axes(guesses);
   return guesses;
 }

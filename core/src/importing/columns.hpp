@@ -13,6 +13,12 @@ namespace tunica::importing {
 
 /// The kind of a column that holds the force on the closed end of a tube, pressure on the lumen included.
 inline constexpr const char* total_force = "total force";
+/// The kind of a column that holds how far a tip is pressed into a surface.
+inline constexpr const char* indentation = "an indentation";
+/// The kind of a column of a rotational rheometer, whose stresses and strains are of shear.
+inline constexpr const char* shearing = "of a rheometer";
+/// The kind of a column of a beam that is bent.
+inline constexpr const char* bending = "bending";
 
 struct ColumnGuess {
   std::string name;                 ///< as "columns" takes it: the name, or "#3"

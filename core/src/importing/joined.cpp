@@ -34,6 +34,12 @@ std::string direction_of(const std::filesystem::path& file, const Answers& answe
   return named;
 }
 
+std::string in_quotes(const std::string& text) {
+  std::string cell = "\"";
+  for (const char letter : text) cell += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return cell + '"';
+}
+
 std::size_t time_of(const Part& part) {
   const auto found = std::find_if(part.columns.begin(), part.columns.end(),
                                   [](const ColumnGuess& one) { return one.numeric && one.quantity == "time"; });
@@ -81,10 +87,15 @@ std::string joined_table(const Answers& answers) {
     for (std::size_t column = 0; column < parts[k].columns.size(); ++column) {
       const ColumnGuess& guess = parts[k].columns[column];
       const bool time = guess.quantity == "time";
-      if (!guess.numeric || guess.quantity.empty() || (time && k > 0)) continue;
       const std::string mark = header.empty() ? "" : ",";
-      header += fmt::format("{}\"{}{}{}\"", mark, guess.title, time ? "" : " " + parts[k].direction,
-                            guess.unit.empty() ? "" : " [" + guess.unit + "]");
+      if (!guess.numeric && guess.filled > 0 && k == 0) {  // a label: rows are chosen by it, and both files have it
+        header += mark + in_quotes(guess.title);
+        for (std::size_t row = 0; row < lines.size(); ++row)
+          lines[row] += mark + in_quotes(parts[k].csv.rows[row].cells[column]);
+      }
+      if (!guess.numeric || guess.quantity.empty() || (time && k > 0)) continue;
+      header += mark + in_quotes(guess.title + (time ? "" : " " + parts[k].direction) +
+                              (guess.unit.empty() ? "" : " [" + guess.unit + "]"));
       const char decimal = parts[k].csv.decimal_mark({column});
       for (std::size_t row = 0; row < lines.size(); ++row) {
         std::string cell = parts[k].csv.rows[row].cells[column];

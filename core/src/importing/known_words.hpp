@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "importing/columns.hpp"
+
 /// What quantities are called in the headers of testing machines: English, German, French, Spanish, Italian. Spelling
 /// as for has_word().
 namespace tunica::importing {
@@ -58,6 +60,8 @@ inline constexpr Word known_words[] = {{"pressure", "pressure", "kPa"},
                                        {"extension", "displacement", "mm"},
                                        {"elongation", "displacement", "mm"},
                                        {"travel", "displacement", "mm"},
+                                       {"=distance", "displacement", "mm"},
+                                       {"wegaufnehmer", "displacement", "mm"},
                                        {"=course", "displacement", "mm", true},
                                        {"=deform", "displacement", "mm", true},
                                        {"=pos", "displacement", "mm", true},
@@ -114,6 +118,16 @@ inline constexpr std::pair<const char*, const char*> other_words[] = {{"rate", "
                                                                       {"temperatur", "temperature"},
                                                                       {"torque", "torque"},
                                                                       {"torsional", "torsion"},
+                                                                      {"indentation", indentation},
+                                                                      {"=flex", bending},
+                                                                      {"flexur", bending},
+                                                                      {"bending", bending},
+                                                                      {"biege", bending},
+                                                                      {"viscosity", shearing},
+                                                                      {"viskositat", shearing},
+                                                                      {"viscosite", shearing},
+                                                                      {"oscillation", "an amplitude"},
+                                                                      {"amplitude", "an amplitude"},
                                                                       {"rotation", "an angle"},
                                                                       {"angle", "an angle"}};
 

@@ -38,8 +38,10 @@ class Mapper {
   Mapping map() {
     for (const auto& [name, column] : answers_.columns) {
       if (!quantity(name)) refuse_name(name);
-      take(name, csv_.column(column), column);
+      const std::size_t index = csv_.column(column);
+      take(as_stated(name, columns_[index]), index, column);
     }
+    refuse_other_tests();
     for (const auto& [column, unit] : answers_.units) mapping_.units[column] = unit;
     choose();
     refuse_gaps();
@@ -61,6 +63,23 @@ class Mapper {
     for (const data::RawName& raw : data::raw_names(factory_.observables)) known.push_back(raw.name);
     throw InputError(fmt::format("--column {}: a test of type '{}' has no such quantity. {}", name, type_,
                                  data::suggestion(name, known)));
+  }
+
+  /// A strain that the user calls "strain" alone has the definition that the file, or else the user, states.
+  std::string as_stated(std::string name, const ColumnGuess& column) const {
+    const From kind = quantity(name)->kind;
+    const std::string& stated = column.measure.empty() ? answers_.strain_measure : column.measure;
+    if (!is_strain(kind) || stated.empty()) return name;
+    const bool known = stated == "true" || stated == "green";
+    if (kind == From::strain && known) name.replace(name.find("strain"), 6, stated + "_strain");
+    const std::string named = kind == From::true_strain ? "true" : kind == From::green_strain ? "green" : "";
+    if (stated == "almansi" || (!named.empty() && named != stated))
+      throw InputError(fmt::format(
+          "{}, line {}: --column {} names the column '{}', and {} says that its strain is {}. Name it so, or leave the "
+          "other out.",
+          csv_.file.string(), csv_.header_line, name, column.title,
+          column.measure.empty() ? "--strain-measure" : "its name", stated));
+    return name;
   }
 
   void take(const std::string& name, std::size_t index, const std::string& column) {
@@ -247,6 +266,25 @@ class Mapper {
     }
   }
 
+  /// What looks like a strip and is none: a beam that is bent, and the shear of a rheometer.
+  void refuse_other_tests() const {
+    const auto of = [&](const char* kind) {
+      return std::find_if(columns_.begin(), columns_.end(),
+                          [&](const ColumnGuess& column) { return column.kind == kind; });
+    };
+    if (const auto bent = of(bending); bent != columns_.end())
+      throw InputError(fmt::format(
+          "{}, line {}: the column '{}' speaks of bending, and no test here bends a beam: a force over its section "
+          "would be taken for a tension. Rename the column where the specimen was pulled.",
+          csv_.file.string(), csv_.header_line, bent->title));
+    if (const auto sheared = of(shearing); sheared != columns_.end() && type_ != "simple_shear")
+      throw InputError(fmt::format(
+          "{}, line {}: the column '{}' is one of a rheometer, whose stresses and strains are of shear, and not of a "
+          "test of type '{}'. Give --test simple_shear where the shear is the same everywhere, and name its columns "
+          "with --column.",
+          csv_.file.string(), csv_.header_line, sheared->title, type_));
+  }
+
   void refuse_gaps() const {
     std::vector<std::string> names;
     for (const ColumnGuess& column : columns_)
@@ -255,15 +293,20 @@ class Mapper {
                                   : column.values.empty()
                                       ? std::string()
                                       : fmt::format(" (text such as '{}')", data::excerpt(column.values.back()))));
+    const auto indents = [](const ColumnGuess& column) { return column.kind == indentation; };
+    const std::string hint = std::any_of(columns_.begin(), columns_.end(), indents)
+                                 ? " No test here presses a tip into a surface: the load of an indentation follows the "
+                                   "contact, and no stretch."
+                                 : "";
     bool channel = false;
     for (const Observable& observable : factory_.observables) {
       channel = channel || (observable.role == Role::channel && given_.contains(observable.name));
       if (observable.required && !given_.contains(observable.name))
         throw InputError(
             fmt::format("{}, line {}: no column is known to give '{}' of a test of type '{}'. Columns: {}. "
-                        "Name one with --column, for example --column '{}=COLUMN', or another --test.",
+                        "Name one with --column, for example --column '{}=COLUMN', or another --test.{}",
                         csv_.file.string(), csv_.header_line, observable.name, type_, fmt::join(names, ", "),
-                        observable.kind == Observable::Kind::stretch ? "displacement" : observable.name));
+                        observable.kind == Observable::Kind::stretch ? "displacement" : observable.name, hint));
     }
     if (!channel)
       throw InputError(

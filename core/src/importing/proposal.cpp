@@ -94,7 +94,8 @@ class File {
     if (!answers_.compressions.empty()) return;
     std::string sign = answers_.compression;
     if (sign.empty() && said_.compression)
-      sign = ask_({"Sign of the values in compression: positive or negative", "--compression SIGN", "positive"});
+      sign = ask_({"Sign of the values in compression: positive or negative", "--compression SIGN",
+                   said_.negative ? "negative" : "positive"});
     if (!sign.empty()) data["compression"] = sign;
     if (sign.empty() && type_ == "uniaxial")
       note(
@@ -116,6 +117,11 @@ class File {
     measure_ = std::move(mapping.stress_measure);
     said_ = words_of_sign(file_, bytes_, csv_, columns_);
     said_.compression = said_.compression || mapping.compression;
+    if (said_.bending)
+      note(
+          "its name, or a line above its table, speaks of bending, and no test here bends a beam: use it only where "
+          "the "
+          "specimen was pulled or pressed");
     Json columns = Json::object();
     for (const auto& [name, column] : mapped_)
       if (const auto position = data::column_position(column))

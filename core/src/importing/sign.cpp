@@ -60,8 +60,20 @@ SignWords words_of_sign(const std::filesystem::path& file, std::string_view byte
   said.compression =
       has_any(name, {"compres", "stauch"}) || has_any(before, {"compression", "kompression", "druckversuch"});
   said.tension = has_any(name, tension) || has_any(before, tension);
-  for (const ColumnGuess& column : columns)
+  said.bending =
+      has_any(name, {"flexur", "=bending", "biege"}) || has_any(before, {"flexur", "=bending", "biegeversuch"});
+  std::vector<const data::Csv::Row*> rows;
+  for (const data::Csv::Row& row : csv.rows) rows.push_back(&row);
+  std::size_t forces = 0, below = 0;
+  for (const ColumnGuess& column : columns) {
     said.tension = said.tension || (column.numeric && has_any(words_of(column.title), tension));
+    if (column.quantity != "force" || column.set_point) continue;
+    std::vector<double> values = numbers_of(csv, column.name, rows);
+    for (double& value : values) value = -value;
+    ++forces;
+    below += positive(values) ? 1 : 0;
+  }
+  said.negative = forces > 0 && below == forces;
   return said;
 }
 

@@ -16,6 +16,8 @@ namespace tunica::importing {
 /// What the name of a file, the lines above its table and the names of its columns say.
 struct SignWords {
   bool compression = false, tension = false;
+  bool bending = false;   ///< of the file or above its table, where no column says so
+  bool negative = false;  ///< every force is, but for some that scatter about zero
 };
 SignWords words_of_sign(const std::filesystem::path& file, std::string_view bytes, const data::Csv& csv,
                         const std::vector<ColumnGuess>& columns);

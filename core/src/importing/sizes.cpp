@@ -40,14 +40,18 @@ std::string direction_named(std::string_view name) {
 
 KnownSizes sizes_in_table(const std::filesystem::path& table, const std::string& specimen) {
   const data::Csv csv = data::parse_csv(table, data::read_bytes(table));
-  const auto row = std::find_if(csv.rows.begin(), csv.rows.end(), [&](const data::Csv::Row& one) {
+  const auto named = [&](const data::Csv::Row& one) {
     return std::find(one.cells.begin(), one.cells.end(), specimen) != one.cells.end();
-  });
+  };
+  const auto row = std::find_if(csv.rows.begin(), csv.rows.end(), named);
   if (row == csv.rows.end())
     throw InputError(
         fmt::format("{}: no row has the specimen '{}', the name of its file without ending. Add a row, or "
                     "give --width, --thickness and --gauge-length.",
                     table.string(), data::excerpt(specimen)));
+  if (const auto second = std::find_if(row + 1, csv.rows.end(), named); second != csv.rows.end())
+    throw InputError(fmt::format("{}: lines {} and {} both have the specimen '{}'. Keep the one whose sizes are right.",
+                                 table.string(), row->line, second->line, data::excerpt(specimen)));
   KnownSizes sizes;
   for (std::size_t k = 0; k < csv.columns.size(); ++k) {
     const data::Csv::Column& column = csv.columns[k];
@@ -68,10 +72,25 @@ KnownSizes sizes_in_table(const std::filesystem::path& table, const std::string&
                                   ? &sizes.gauge_length
                                   : nullptr;
     if (size == nullptr || row->cells[k].empty()) continue;
+    if (has_any(words_of(column.name), {"=sd", "=std", "=sem", "deviation", "error", "uncertainty"})) continue;
     const char* const base = area ? "mm2" : "mm";
-    const std::string unit = column.unit && measures(*column.unit, base) ? *column.unit : base;
-    *size = fmt::format("{} {}", csv.number(*row, k, csv.decimal_mark({k})), unit);
-    if (diameter) *size = circle(*size);
+    if (column.unit && !measures(*column.unit, base))
+      throw InputError(fmt::format("{}, line {}: '{}' has the unit '{}', and one such as {} is expected. Correct it.",
+                                   table.string(), csv.header_line, data::excerpt(column.name),
+                                   data::excerpt(*column.unit), base));
+    const std::string unit = column.unit.value_or(base);
+    std::string found = fmt::format("{} {}", csv.number(*row, k, csv.decimal_mark({k})), unit);
+    if (diameter) found = circle(found);
+    if (!size->empty()) {
+      constexpr double alike = 0.01;
+      const char* const of = size == &sizes.area ? "mm2" : "mm";
+      const double before = data::parse_quantity(*size, of), now = data::parse_quantity(found, of);
+      if (std::abs(now - before) <= alike * std::abs(before)) continue;
+      throw InputError(
+          fmt::format("{}, line {}: '{}' comes to {}, and a column before it to {}. Keep the one that is right.",
+                      table.string(), row->line, data::excerpt(column.name), found, *size));
+    }
+    *size = found;
     sizes.sources.push_back(
         fmt::format("{} {} from {}, line {}{}", column.name, *size, table.filename().string(), row->line,
                     column.unit ? "" : fmt::format("; the table gives no unit, {} is assumed", base)));
