@@ -297,7 +297,7 @@ Entrants entrants_of(Field& field) {
 
   std::set<std::string> tests;
   for (const diagnosis::Curve& curve : evidence.curves) tests.insert(curve.test);
-  if (tests.size() > 1 && !evidence.base->layout().has_costly_tests)
+  if (tests.size() > 1 && field.inquiry.request.mechanisms.empty() && !evidence.base->layout().has_costly_tests)
     for (const std::string& test : tests) {
       auto alone = apart(evidence, test);
       if (!alone) continue;
