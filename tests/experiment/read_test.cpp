@@ -2,6 +2,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "experiment/materials.hpp"
 #include "experiment/reading.hpp"
 
 namespace tunica::experiment {
@@ -62,6 +63,26 @@ TEST_F(ReadExperiment, WritesAnInputFileThatReadsAsTheSameExperiment) {
   EXPECT_EQ(again.input_json, first.input_json);
   ASSERT_TRUE(again.diagnosis);
   EXPECT_EQ(again.diagnosis->alpha, first.diagnosis->alpha);
+}
+
+TEST_F(ReadExperiment, KnowsWhatAModelStandsFor) {
+  const std::string text = with(R"("type": "gho",)", R"("type": "gho", "material": "artery",)");
+  const Experiment first = read(text);
+  EXPECT_EQ(first.model("gho").options.text(material_key), "artery");
+  EXPECT_EQ(read(first.input_json).model("gho").options.text(material_key), "artery");
+  testing::expect_within(refusal(with("artery", "arteries", text)), "Did you mean 'artery'?");
+}
+
+TEST_F(ReadExperiment, KnowsPublishedStiffnessesWithTheirSources) {
+  ASSERT_FALSE(known_materials().empty());
+  for (const std::string& name : known_materials()) {
+    const auto published = stiffness_of(name);
+    ASSERT_TRUE(published) << name;
+    EXPECT_GT(published->stiffness, 0) << name;
+    EXPECT_GE(published->factor, 30) << name << ": nine of ten honest tissues lie outside narrow ranges";
+    EXPECT_NE(published->source.find('('), std::string::npos) << name;
+  }
+  EXPECT_FALSE(stiffness_of("jelly"));
 }
 
 TEST_F(ReadExperiment, ReadsTheExampleOfTheManual) {

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """record.py TUNICA SOURCES FOLDER: what contradicts an experiment, its data or physics is asked about by `check`: the
-size of an unloaded tube, a noise of 200 %, angles in radians, keys that do nothing. What is in order raises nothing."""
+size of an unloaded tube, a noise of 200 %, angles in radians, a stiffness that no such tissue has, keys that do nothing.
+What is in order raises nothing."""
 import json
 import sys
 
@@ -70,6 +71,13 @@ only("record_angle", "'theta' of model 'm' is 0.7 without a unit", STRIP, HGO)
 only("record_angle", "'misalignment' of test 't' is 0.1 without a unit",
      {**STRIP, "parameters": {"misalignment": {"fixed": 0.1}}}, {"type": "hgo"})
 assert found({**STRIP, "parameters": {"misalignment": {"fixed": "0.1 deg"}}}, {"type": "hgo"}) == []
+
+# What is published of the material: 400 kPa is an artery's, and no brain's.
+assert found(STRIP, {**NEO_HOOKE, "material": "artery"}) == []
+only("set_up", "is a stiffness of 400 kPa, 133 times what is published of brain (3 kPa: Budday",
+     STRIP, {**NEO_HOOKE, "material": "brain"})
+only("set_up", "1/750 of what is published of artery", with_data(units={"stress [kPa]": "Pa"}),
+     {**NEO_HOOKE, "material": "artery"})
 
 # Keys that do nothing.
 only("set_up", "\"guide\" changes nothing", STRIP, fewer_simulations={"guide": True})

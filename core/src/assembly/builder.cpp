@@ -10,6 +10,7 @@
 #include "assembly/channels.hpp"
 #include "assembly/record.hpp"
 #include "data/nearest.hpp"
+#include "experiment/materials.hpp"
 #include "text/units.hpp"
 #include "tunica/error.hpp"
 
@@ -183,6 +184,12 @@ void Builder::add_test(std::size_t number) {
   chain_parameters(test, layout.parameters.size());
   const auto& observables = catalogue_.tests().at(entry.type).factory.observables;
   add_stretches(*test.test, observables, entry.name, parts_.strips, parts_.largest_stretch);
+  const std::vector<std::string> names = experiment_.models_of(run_);
+  if (entry.layers.empty() && !names.empty() && experiment_.model(names.front()).options.has(experiment::material_key))
+    if (std::string question =
+            stiffness_question(entry, dataset, experiment_.model(names.front()).options.text(experiment::material_key));
+        !question.empty())
+      layout.warnings.push_back(std::move(question));
   for (const std::string& warning : dataset.warnings)
     layout.warnings.push_back(fmt::format("test '{}': {}", entry.name, warning));
   layout.findings.insert(layout.findings.end(), entry.findings.begin(), entry.findings.end());

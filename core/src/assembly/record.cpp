@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/materials.hpp"
 #include "text/units.hpp"
 
 namespace tunica::assembly {
@@ -87,6 +88,29 @@ void look_at_noise(const experiment::TestEntry& entry, const data::Dataset& data
                                       "noise explains every fit. Is its unit right?",
                                       name, noise.absolute, largest)});
   }
+}
+
+std::string stiffness_question(const experiment::TestEntry& entry, const data::Dataset& dataset,
+                               const std::string& material) {
+  const auto published = experiment::stiffness_of(material);
+  if (!published) return {};
+  constexpr double hardly = 0.01;
+  double stress = 0, strain = 0;
+  for (const data::Channel& channel : dataset.channels)
+    for (const double value : channel.values)
+      if (channel.observable.starts_with("stress") && std::isfinite(value)) stress = std::max(stress, std::abs(value));
+  for (const auto& [name, values] : dataset.abscissae)
+    for (const double value : values)
+      if (name.starts_with("stretch") && std::isfinite(value)) strain = std::max(strain, std::abs(value - 1));
+  if (!(stress > 0) || strain < hardly) return {};
+  const double measured = stress / strain, ratio = measured / published->stiffness;
+  if (ratio <= published->factor && ratio >= 1 / published->factor) return {};
+  return fmt::format(
+      "test '{}': {:.3g} kPa at a stretch of 1 ± {:.2g} is a stiffness of {:.3g} kPa, {} what is published of {} "
+      "({:g} kPa: {}). Is the unit of the stress or of the stretch right? Where it is, take \"material\" out",
+      entry.name, stress, strain, measured,
+      ratio > 1 ? fmt::format("{:.3g} times", ratio) : fmt::format("1/{:.3g} of", 1 / ratio), material,
+      published->stiffness, published->source);
 }
 
 }  // namespace tunica::assembly

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "data/dataset.hpp"
@@ -17,5 +18,10 @@ void look_at_unloaded_tube(const experiment::TestEntry& entry, const data::Datas
 /// A stated noise as large as what was measured: 2 is 200 %.
 void look_at_noise(const experiment::TestEntry& entry, const data::Dataset& dataset,
                    std::vector<data::Finding>& findings);
+
+/// Secant stiffness of a strip or a sheet, largest stress over largest stretch less 1, against published ones of the
+/// material: a question where it lies far outside, else empty.
+std::string stiffness_question(const experiment::TestEntry& entry, const data::Dataset& dataset,
+                               const std::string& material);
 
 }  // namespace tunica::assembly

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/materials.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
 #include "plugins/guarded.hpp"
@@ -94,8 +95,13 @@ ModelEntry read_model(const std::string& name, const Node& entry, const plugins:
   const std::string owner = fmt::format("model '{}'", name);
   const std::string type = entry.require("type", owner).one_of(names_of(catalogue.models()), "model type");
   const auto& available = catalogue.models().find(type)->second;
-  const Options options = read_options(entry, available.factory.options, {"type", "parameters", "mechanisms"}, owner);
+  const auto& declared = available.factory.options;
+  const Options options = read_options(entry, declared, {"type", "parameters", "mechanisms", material_key}, owner);
   ModelEntry model{name, type, options, {}, {}};
+  const bool own_option =
+      std::any_of(declared.begin(), declared.end(), [](const Option& option) { return option.name == material_key; });
+  if (const auto node = entry.find(material_key); node && !own_option)
+    model.options.set(material_key, node->one_of(known_materials(), "material"));
   std::unique_ptr<Model> instance;
   try {
     instance = plugins::create(available, options);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/limits.hpp"
+#include "experiment/materials.hpp"
 #include "experiment/schema_parts.hpp"
 #include "plugins/guarded.hpp"
 
@@ -145,6 +146,11 @@ void define_plugins(Json& definitions, const plugins::Catalogue& catalogue) {
     if (std::any_of(factory.options.begin(), factory.options.end(), names_parameters))
       properties["parameters"]["additionalProperties"] = reference("parameter");
     properties["mechanisms"] = mechanism_list(of_models);
+    if (!properties.contains(material_key))
+      properties[material_key] = {
+          {"description",
+           "What it is: measured stiffness far from published ones of this material is worth a question of units."},
+          {"enum", known_materials()}};
     definitions["model_" + type] = object_schema(described(factory.doc, factory.reference, entry.plugin),
                                                  std::move(properties), required_keys(factory.options, {"type"}));
   }

@@ -6,6 +6,7 @@
 
 #include "data/quantities.hpp"
 #include "experiment/enum_names.hpp"
+#include "experiment/materials.hpp"
 #include "experiment/reader.hpp"
 
 namespace tunica::experiment {
@@ -146,6 +147,7 @@ class Writer {
 
   [[nodiscard]] Json model(const ModelEntry& entry) const {
     Json json = {{"type", entry.type}};
+    if (entry.options.has(material_key)) json[material_key] = entry.options.text(material_key);
     add_options(json, entry.options, catalogue_.models().find(entry.type)->second.factory.options);
     json["parameters"] = to_json(entry.parameters);
     json["mechanisms"] = mechanisms(entry.mechanisms);
