@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/assembly.hpp"
+#include "diagnosis/file/inspection.hpp"
 #include "diagnosis/measured.hpp"
 #include "diagnosis/output/outputs.hpp"
 #include "tunica/random.hpp"
@@ -98,9 +99,9 @@ class Wall {
       columns.insert(columns.end(), table.stresses.begin(), table.stresses.end());
       std::string text;
       for (const std::string& column : columns)
-        text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column, column.starts_with("stress") ? "kPa" : "1");
+        text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column, column.starts_with("stretch") ? "1" : "kPa");
       text += '\n';
-      for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t i = 0; i < table.values.at(columns.front()).size(); ++i)
         for (const std::string& column : columns)
           text += fmt::format("{}{}", table.values.at(column)[i], column == columns.back() ? '\n' : ',');
       folder.write(name + ".csv", text);
@@ -237,6 +238,104 @@ TEST(File, AnAngleFromTheOtherAxisIsFound) {
   wall.measure(7);
   wall.experiment["models"]["gho"]["parameters"]["theta"]["fixed"] = 52;
   expect_found(wall.diagnose(), FileKind::angle, everything);
+}
+
+/// The mechanism is said, with its amplitude within a tenth.
+void expect_calibration(const Diagnosis& found, const std::string& mechanism, const std::vector<std::string>& tests,
+                        double amplitude) {
+  const diagnosis::FileFindings& file = found.explanation.file;
+  EXPECT_EQ(file.standing, FileStanding::ahead) << diagnosis::summary(found).plain();
+  const auto one = std::find_if(file.causes.begin(), file.causes.end(), [&](const FileCause& cause) {
+    return cause.near && cause.mechanism == mechanism && cause.tests == tests;
+  });
+  ASSERT_NE(one, file.causes.end()) << diagnosis::summary(found).plain();
+  EXPECT_EQ(one->kind, FileKind::calibration);
+  EXPECT_NEAR(one->amplitudes.front().value, amplitude, 0.1 * std::abs(amplitude));
+}
+
+TEST(File, AZeroThatWasTakenUnderLoadIsFound) {
+  Wall wall;
+  wall.measure(
+      8, [](json& truth) { truth["tests"]["axial"]["mechanisms"] = {mechanism("zeroed_at_preload", "stretch", 0.1)}; });
+  const Diagnosis found = wall.diagnose();
+  expect_calibration(found, "zeroed_at_preload", {"axial"}, 0.1);
+  EXPECT_THAT(in_one_line(diagnosis::summary(found).plain()),
+              HasSubstr("force and length of 'axial' were zeroed under load, at a stretch of 1."));
+}
+
+TEST(File, TheGainOfOneDirectionOfAllSheetsIsFoundAndMended) {
+  Wall wall;
+  wall.measure(9, [](json& truth) {
+    for (const char* const sheet : {"sheet_1", "sheet_2", "sheet_3"}) {
+      json gain = mechanism("sheet_force_scale_error", "gain", 0.25);
+      gain["channel"] = "stress_axial";
+      truth["tests"][sheet]["mechanisms"] = {gain};
+    }
+  });
+  const Diagnosis found = wall.diagnose();
+  expect_calibration(found, "sheet_force_scale_error", {"sheet_1", "sheet_2", "sheet_3"}, 0.25);
+  const auto files = diagnosis::mended_files(found, wall.folder.path(), testing::catalogue());
+  ASSERT_EQ(files.size(), 1u) << "the numbers stay what they are";
+  wall.folder.write(files.front().name, files.front().text);
+  EXPECT_EQ(wall.diagnose("mended.json").explanation.verdict, Verdict::nothing_detected);
+}
+
+TEST(File, TheZeroStateOfASheetIsFound) {
+  Wall wall;
+  wall.measure(10, [](json& truth) {
+    json stretch = mechanism("sheet_prestretch", "stretch", 0.06);
+    stretch["channel"] = "stress_circumferential";
+    truth["tests"]["sheet_2"]["mechanisms"] = {stretch};
+  });
+  expect_calibration(wall.diagnose(), "sheet_prestretch", {"sheet_2"}, 0.06);
+}
+
+/// An error of the record is no candidate beside the causes of the material, unless it is asked for.
+TEST(File, ErrorsOfTheRecordAreCandidatesWhereTheyAreAskedFor) {
+  Wall wall;
+  wall.measure(8, [](json& truth) {
+    truth["tests"]["axial"]["mechanisms"] = {mechanism("displacement_offset", "stretch", -0.05)};
+  });
+  wall.experiment["diagnosis"]["mechanisms"] = {"displacement_offset"};
+  const Diagnosis asked = wall.diagnose();
+  ASSERT_FALSE(asked.explanation.claim.causes.empty());
+  EXPECT_EQ(asked.explanation.claim.causes.front().id, "displacement_offset");
+  wall.experiment.erase("diagnosis");
+  for (const auto& one : wall.diagnose().explanation.ranking) EXPECT_NE(one.id, "displacement_offset");
+}
+
+TEST(File, HeadersThatContradictTheFileAreSaid) {
+  using diagnosis::words_of_header;
+  EXPECT_EQ(words_of_header("Nominal stress [kPa]").measure, "first_piola_kirchhoff");
+  EXPECT_EQ(words_of_header("PK2_axial").measure, "second_piola_kirchhoff");
+  EXPECT_EQ(words_of_header("Hencky strain").definition, "true_strain");
+  EXPECT_EQ(words_of_header("true strain").measure, "");
+  EXPECT_EQ(words_of_header("stress_axial [kPa]").measure, "");
+  Wall wall;
+  wall.measure(21);
+  const std::string name = "circumferential";
+  wall.tables.at(name).values["PK1"] = wall.tables.at(name).values.at("stress");
+  wall.tables.at(name).stresses = {"PK1"};
+  wall.experiment["tests"][name]["data"]["columns"]["stress"] = "PK1";
+  wall.write();
+  const Diagnosis found = wall.diagnose();
+  ASSERT_EQ(found.explanation.file.suspect.size(), 1u);
+  EXPECT_EQ(found.explanation.file.suspect.front().code, "header_measure");
+  EXPECT_THAT(in_one_line(diagnosis::summary(found).plain()),
+              HasSubstr("Suspect: the header 'PK1' of 'circumferential' speaks of \"first_piola_kirchhoff\""));
+}
+
+TEST(File, RowsThatStandInAFileTwiceAreSaid) {
+  Wall wall;
+  wall.measure(21);
+  for (auto& [column, values] : wall.tables.at("sheet_1").values) {
+    const std::vector<double> once = values;
+    values.insert(values.end(), once.begin() + 4, once.end());
+  }
+  wall.write();
+  const Diagnosis found = wall.diagnose();
+  ASSERT_FALSE(found.explanation.file.suspect.empty());
+  EXPECT_EQ(found.explanation.file.suspect.front().code, "record_repeated");
 }
 
 TEST(File, AnHonestFileWithARealEffectIsNotBlamed) {

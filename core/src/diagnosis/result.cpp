@@ -99,9 +99,11 @@ const char* code_of(FileKind kind) {
     case FileKind::angle:
       return "angle";
     case FileKind::clock:
+      return "clock";
+    case FileKind::calibration:
       break;
   }
-  return "clock";
+  return "calibration";
 }
 
 const char* code_of(FileStanding standing) {

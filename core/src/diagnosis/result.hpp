@@ -98,41 +98,10 @@ enum class FileKind {
   unit,               ///< a factor: a unit, a prefix, an area
   geometry,           ///< radii, diameters, thickness and forces of a tube
   angle,              ///< from the other axis, or radians
-  clock               ///< the unit of the time
+  clock,              ///< the unit of the time
+  calibration         ///< a zero, a gain, a length, a compliance or a lag, with one amplitude
 };
 const char* code_of(FileKind kind);
-
-/// A mistake that the file may have: with it mended, the base model is fitted again.
-struct FileCause {
-  FileKind kind = FileKind::unit;
-  std::vector<std::string> tests;
-  std::string sentence;    ///< "the stresses of 'axial' are first Piola–Kirchhoff stresses, not Cauchy ones"
-  std::string mend;        ///< "\"stress_measure\": \"first_piola_kirchhoff\" in the data of 'axial'"
-  double squares = 0;      ///< |r|² of the base model then
-  double p_after = 0;      ///< of what it then leaves
-  double probability = 0;  ///< among the mistakes that were tried
-  bool near = false;       ///< as good as the likeliest of them: one answer with it
-};
-
-/// How a mistake of the file stands against causes in the material and in the rig.
-enum class FileStanding {
-  not_looked_for,  ///< the group is switched off, or nothing is wrong
-  far,             ///< none leaves noise, or another cause is clearly ahead
-  near,            ///< as likely as the others: a question
-  ahead            ///< clearly ahead of all others
-};
-const char* code_of(FileStanding standing);
-
-/// What came of the group `file`.
-struct FileFindings {
-  FileStanding standing = FileStanding::not_looked_for;
-  double wrong_files = 0;         ///< share of files that are expected to say what is not so
-  std::size_t tried = 0;          ///< mistakes
-  std::vector<FileCause> causes;  ///< likeliest first
-  /// By how much, in units of BIC, the likeliest mistake is ahead of the likeliest other cause.
-  std::optional<double> lead;
-  std::vector<std::string> untellable;  ///< mistakes that leave no trace in these data
-};
 
 /// Why a mechanism is not looked for, or would not be seen.
 enum class Absence {
@@ -187,6 +156,47 @@ struct Amplitude {
   std::string name, unit;
   double value = 0, low = 0, high = 0;  ///< 95 % interval
   bool at_bound = false, plausible = true;
+};
+
+/// A mistake that the file may have: with it mended, the base model is fitted again.
+struct FileCause {
+  FileKind kind = FileKind::unit;
+  std::vector<std::string> tests;
+  std::string sentence;        ///< "the stresses of 'axial' are first Piola–Kirchhoff stresses, not Cauchy ones"
+  std::string mend;            ///< "\"stress_measure\": \"first_piola_kirchhoff\" in the data of 'axial'"
+  double squares = 0;          ///< |r|² of the base model then
+  double p_after = 0;          ///< of what it then leaves
+  double probability = 0;      ///< among the mistakes that were tried
+  bool near = false;           ///< as good as the likeliest of them: one answer with it
+  std::string mechanism = {};  ///< that stands for it, where it has an amplitude
+  std::vector<Amplitude> amplitudes = {};  ///< of it
+};
+
+/// How a mistake of the file stands against causes in the material and in the rig.
+enum class FileStanding {
+  not_looked_for,  ///< the group is switched off, or nothing is wrong
+  far,             ///< none leaves noise, or another cause is clearly ahead
+  near,            ///< as likely as the others: a question
+  ahead            ///< clearly ahead of all others
+};
+const char* code_of(FileStanding standing);
+
+/// What the record of a test says against itself, or its header against the file: seen without a fit.
+struct Suspect {
+  std::string code;  ///< "record_repeated", "header_measure"
+  std::string text;
+};
+
+/// What came of the group `file`.
+struct FileFindings {
+  FileStanding standing = FileStanding::not_looked_for;
+  double wrong_files = 0;         ///< share of files that are expected to say what is not so
+  std::size_t tried = 0;          ///< mistakes
+  std::vector<FileCause> causes;  ///< likeliest first
+  /// By how much, in units of BIC, the likeliest mistake is ahead of the likeliest other cause.
+  std::optional<double> lead;
+  std::vector<std::string> untellable;  ///< mistakes that leave no trace in these data
+  std::vector<Suspect> suspect = {};    ///< found by inspection
 };
 
 struct Cause {

@@ -13,6 +13,7 @@
 
 #include "diagnosis/detection/squares.hpp"
 #include "diagnosis/evidence/projection.hpp"
+#include "diagnosis/file/calibrated_fits.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 
@@ -97,6 +98,7 @@ std::vector<Climb> climbs_of(const Corrections& corrections) {
   std::vector<Climb> climbs;
   std::map<std::pair<std::string, bool>, std::size_t> sides;
   for (const Correction& one : corrections) {
+    if (!one.additions.empty()) continue;
     if (one.ladder.empty()) {
       climbs.push_back({&one});
       continue;
@@ -128,12 +130,13 @@ std::vector<CorrectedFit> corrected_fits(const Inquiry& inquiry, const Analysis&
       before = std::min(before, now);
     }
   });
-  std::vector<CorrectedFit> all;
+  std::vector<CorrectedFit> all = calibrated_fits(inquiry, analysis, record, corrections);
   for (auto& climb : fits) std::move(climb.begin(), climb.end(), std::back_inserter(all));
   const auto by_weight = [](const CorrectedFit& a, const CorrectedFit& b) { return a.log_weight > b.log_weight; };
   std::stable_sort(all.begin(), all.end(), by_weight);
-  tbb::parallel_for(std::size_t{0}, std::min(all.size(), corrections_searched_again),
-                    [&](std::size_t k) { fitting.search_again(all[k]); });
+  tbb::parallel_for(std::size_t{0}, std::min(all.size(), corrections_searched_again), [&](std::size_t k) {
+    if (all[k].amplitudes.empty()) fitting.search_again(all[k]);
+  });
   std::stable_sort(all.begin(), all.end(), by_weight);
   return all;
 }

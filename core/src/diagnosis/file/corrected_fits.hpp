@@ -14,7 +14,8 @@ struct CorrectedFit {
   const Correction* correction = nullptr;
   std::shared_ptr<const assembly::Assembly> assembly;
   Fit fit;
-  double log_weight = 0;  ///< ln of prior times likelihood, up to what all fits of these data share
+  double log_weight = 0;  ///< ln of prior times likelihood by BIC, up to what all fits of these data share
+  std::vector<Amplitude> amplitudes = {};  ///< of a correction that has any
 };
 
 /// The corrections that improve on the base fit, likeliest first. Each starts from the base optimum and from the

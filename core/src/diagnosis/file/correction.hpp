@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "diagnosis/file/record.hpp"
+#include "diagnosis/hypotheses/hypothesis.hpp"
 #include "diagnosis/request.hpp"
 #include "diagnosis/result.hpp"
 
 namespace tunica::diagnosis {
 
 /// One thing that the file may say and that is not so: an exact transform of the data, or of what they were taken for,
-/// without a parameter.
+/// without a parameter; or mechanisms, each with its amplitude.
 struct Correction {
   FileKind kind = FileKind::unit;
   std::vector<std::string> tests;
@@ -25,6 +26,7 @@ struct Correction {
   /// before it, those beyond are worse still. Empty: no ladder.
   std::string ladder = {};
   double rung = 0;
+  std::vector<Addition> additions = {};  ///< of one mechanism, in place of `apply`
 };
 
 using Corrections = std::vector<Correction>;
@@ -45,6 +47,12 @@ void add_tube_sizes(const Record& record, const std::vector<std::string>& tests,
 void add_angles(const Record& record, const experiment::RunEntry& run, const plugins::Catalogue& catalogue,
                 Corrections& all);
 void add_clocks(const Inquiry& inquiry, const Record& record, const experiment::RunEntry& run, Corrections& all);
+/// Those with an amplitude: in each test, of sheets in each direction, and with one amplitude in all tests of a rig.
+void add_calibrations(const Record& record, const std::vector<std::string>& tests, const plugins::Catalogue& catalogue,
+                      Corrections& all);
+
+/// What is so, of fitted amplitudes.
+std::string calibration_words(const Correction& correction, const std::vector<Amplitude>& amplitudes);
 
 /// One correction for each of the tests, and one for all where there are several.
 struct Wording {

@@ -46,6 +46,7 @@ Corrections corrections_of(const Inquiry& inquiry, const Record& record, const e
   add_tube_sizes(record, tests, all);
   add_angles(record, run, inquiry.catalogue, all);
   add_clocks(inquiry, record, run, all);
+  add_calibrations(record, tests, inquiry.catalogue, all);
 
   std::map<std::pair<FileKind, bool>, double> members;
   std::set<FileKind> kinds;

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "diagnosis/file/corrected_fits.hpp"
+#include "diagnosis/file/inspection.hpp"
+#include "diagnosis/hypotheses/extension.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/naming/singles.hpp"
 
@@ -65,8 +67,24 @@ std::vector<std::string> untellable(const Analysis& analysis, bool scale_seen) {
 
 FileCause cause_of(const CorrectedFit& corrected, double p_after) {
   const Correction& correction = *corrected.correction;
-  return {
+  FileCause cause{
       correction.kind, correction.tests, correction.sentence, correction.mend, corrected.fit.chi2, p_after, 0, false};
+  if (correction.additions.empty()) return cause;
+  cause.mechanism = correction.additions.front().id;
+  cause.amplitudes = corrected.amplitudes;
+  cause.sentence = calibration_words(correction, corrected.amplitudes);
+  return cause;
+}
+
+/// The experiment as the correction reads it, or with its mechanisms.
+std::shared_ptr<const experiment::Experiment> mended(const Inquiry& inquiry, const Record& record,
+                                                     const experiment::RunEntry& run, const Correction& correction) {
+  if (!correction.additions.empty())
+    return std::make_shared<const experiment::Experiment>(
+        Extension(record.experiment(), run, correction.additions, inquiry.catalogue).experiment());
+  Record read = record;
+  if (!correction.apply(read)) return nullptr;
+  return std::make_shared<const experiment::Experiment>(std::move(read.experiment()));
 }
 
 }  // namespace
@@ -80,6 +98,7 @@ Explanation weighed_with_file(const Inquiry& inquiry, const Analysis& analysis, 
   file.wrong_files = inquiry.request.wrong_files;
   const bool scale_seen = scale_is_seen(analysis);
   file.untellable = untellable(analysis, scale_seen);
+  file.suspect = inspected(evidence);
   if (!analysis.alarm.raised || !explanation.gross.empty()) return explanation;
   inquiry.report("what the file may say and is not so", 0.75);
 
@@ -132,9 +151,7 @@ Explanation weighed_with_file(const Inquiry& inquiry, const Analysis& analysis, 
                                                  first.sentence, evidence.fit.chi2, first.squares)});
   }
   if (file.standing != FileStanding::far) {
-    Record mended = record;
-    if (fits.front().correction->apply(mended))
-      explanation.mended = std::make_shared<const experiment::Experiment>(std::move(mended.experiment()));
+    explanation.mended = mended(inquiry, record, evidence.run, *fits.front().correction);
   }
   return explanation;
 }

@@ -10,9 +10,10 @@ namespace tunica::diagnosis {
 ///
 ///   S = |r|² + k ln n − 2 ln π
 ///
-/// A mistake of the file has k = 0 and π = share of wrong files × its share among the mistakes. A mechanism has its
-/// amplitude, k = 1, and an equal share of the rest. Where a mistake leaves noise and is ahead by more than the margin,
-/// it is the verdict; within the margin it stands in the verdict as a question; else nothing changes.
+/// A mistake of the file has k = 0, or an amplitude and k = 1, and π = share of wrong files × its share among them. A
+/// mechanism has its amplitude, k = 1, and an equal share of the rest. Where a mistake leaves noise and is ahead by
+/// more than the margin, it is the verdict; within the margin it stands in the verdict as a question; else nothing
+/// changes.
 Explanation weighed_with_file(const Inquiry& inquiry, const Analysis& analysis, Explanation explanation);
 
 }  // namespace tunica::diagnosis

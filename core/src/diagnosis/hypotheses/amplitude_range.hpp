@@ -11,7 +11,8 @@ namespace tunica::diagnosis {
 AmplitudeRange range_of(const MechanismFactory& mechanism, const Addition& addition);
 
 /// The range of an amplitude whose size depends on the specimen; none where the mechanism's own range holds for all
-/// data. Of one that acts on a channel, the plausible ones span the channel. Of MechanismFactory::plausible_effect = q,
+/// data. Of one that acts on a channel, and is no error of the record, the plausible ones span the channel. Of
+/// MechanismFactory::plausible_effect = q,
 ///
 ///   |a − null| ≤ q min_c (max y_c − min y_c)/max_i |∂f_ci/∂a|
 ///

@@ -14,6 +14,7 @@
 #include "diagnosis/hypotheses/extension.hpp"
 #include "diagnosis/hypotheses/isotropy.hpp"
 #include "diagnosis/hypotheses/places.hpp"
+#include "diagnosis/hypotheses/record_errors.hpp"
 #include "diagnosis/hypotheses/signatures.hpp"
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
@@ -318,7 +319,8 @@ std::vector<Candidate> candidates(const Inquiry& inquiry, const Evidence& eviden
   std::vector<const plugins::Catalogue::Entry<MechanismFactory>*> asked;
   for (const auto& [id, entry] : inquiry.catalogue.mechanisms())
     if (!entry.factory.parameters_of &&
-        (requested.empty() || std::find(requested.begin(), requested.end(), id) != requested.end()))
+        (requested.empty() ? !errs_in_the_record(id)
+                           : std::find(requested.begin(), requested.end(), id) != requested.end()))
       asked.push_back(&entry);
   std::vector<Candidate> found(asked.size());
   const auto done = inquiry.steps("signatures of the mechanisms", 0.1, 0.2, asked.size());

@@ -204,7 +204,7 @@ json admissibility_json(const Admissibility& admissibility) {
 
 json file_json(const FileFindings& file) {
   json causes = json::array();
-  for (const FileCause& cause : file.causes)
+  for (const FileCause& cause : file.causes) {
     causes.push_back({{"kind", code_of(cause.kind)},
                       {"tests", cause.tests},
                       {"sentence", cause.sentence},
@@ -213,8 +213,15 @@ json file_json(const FileFindings& file) {
                       {"p_after", cause.p_after},
                       {"probability", cause.probability},
                       {"near", cause.near}});
-  return {{"standing", code_of(file.standing)}, {"wrong_files", file.wrong_files}, {"tried", file.tried},
-          {"lead", or_null(file.lead)},         {"causes", std::move(causes)},     {"untellable", file.untellable}};
+    if (cause.mechanism.empty()) continue;
+    causes.back()["mechanism"] = cause.mechanism;
+    for (const Amplitude& amplitude : cause.amplitudes) causes.back()["amplitudes"].push_back(amplitude.value);
+  }
+  json suspect = json::array();
+  for (const Suspect& one : file.suspect) suspect.push_back({{"code", one.code}, {"text", one.text}});
+  return {{"suspect", std::move(suspect)}, {"standing", code_of(file.standing)}, {"wrong_files", file.wrong_files},
+          {"tried", file.tried},           {"lead", or_null(file.lead)},         {"causes", std::move(causes)},
+          {"untellable", file.untellable}};
 }
 
 json gross_json(const std::vector<GrossRow>& gross) {

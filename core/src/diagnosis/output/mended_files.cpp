@@ -68,8 +68,11 @@ std::vector<NamedText> mended_files(const Diagnosis& d, const std::filesystem::p
     entry.weights.assign(entry.data.noise.size(), 1.0);
     for (auto& [channel, noise] : entry.data.noise) noise = without_levels(noise);
     const auto given = std::exchange(entry.data.given, nullptr);
-    const std::vector<std::string>& changed = d.explanation.file.causes.front().tests;
-    if (!given || std::find(changed.begin(), changed.end(), entry.name) == changed.end()) continue;
+    const FileCause& cause = d.explanation.file.causes.front();
+    const std::vector<std::string>& changed = cause.tests;
+    // A mechanism mends the simulation, not the numbers.
+    if (!given || !cause.mechanism.empty() || std::find(changed.begin(), changed.end(), entry.name) == changed.end())
+      continue;
     const auto& observables = catalogue.tests().find(entry.type)->second.factory.observables;
     const std::size_t replicates = given->channels.front().replicates.size();
     data::DataRequest request;

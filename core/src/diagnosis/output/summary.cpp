@@ -263,6 +263,14 @@ std::string file_line(const FileFindings& file) {
   return text;
 }
 
+/// What shows without a fit; warnings have the texts.
+std::string inspected_line(const FileFindings& file) {
+  if (file.suspect.empty()) return "";
+  std::string text = file.suspect.front().text;
+  if (file.suspect.size() > 1) text += fmt::format("; and {} more in \"file\" of result.json", file.suspect.size() - 1);
+  return text;
+}
+
 /// Mistakes that nothing in the data would show.
 std::string untellable_line(const FileFindings& file) {
   return file.untellable.empty() ? ""
@@ -313,6 +321,7 @@ text::StyledText summary(const Diagnosis& d, const text::StyledText& below_verdi
     if (!text.empty()) lines += text::hanging(lead, text) + '\n';
   };
   line("Alarm:    ", alarm_line(d.analysis));
+  line("Suspect:  ", inspected_line(explanation.file));
   line("File:     ", file_line(explanation.file));
   if (const assembly::Misfit misfit = stated_misfit(d.analysis.evidence); wrong && misfit.judged())
     line("Misfit:   ", assembly::in_words(misfit, "stated"));

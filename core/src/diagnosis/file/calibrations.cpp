@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "diagnosis/file/correction.hpp"
+#include "diagnosis/hypotheses/record_errors.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+bool acts_on(const MechanismFactory& mechanism, const std::string& type) {
+  const auto& types = mechanism.applies_to;
+  return types.empty() || std::find(types.begin(), types.end(), type) != types.end();
+}
+
+bool takes_channel(const MechanismFactory& mechanism) {
+  return std::any_of(mechanism.options.begin(), mechanism.options.end(),
+                     [](const Option& option) { return option.name == "channel"; });
+}
+
+/// The stresses of a sheet, where it has two.
+std::vector<std::string> directions_of(const Record& record, const std::string& test) {
+  std::vector<std::string> names;
+  for (const data::Channel& channel : record.data(test).channels)
+    if (channel.observable.starts_with("stress")) names.push_back(channel.observable);
+  return names.size() == 2 ? names : std::vector<std::string>();
+}
+
+void add(const std::string& id, const std::vector<std::string>& tests, bool common,
+         const std::vector<std::string>& channels, Corrections& all) {
+  Correction one{FileKind::calibration, tests, common, "", "", {}};
+  for (const std::string& channel : channels) one.additions.push_back({id, {tests, channel}, {}});
+  std::vector<std::string> written;
+  for (const std::string& channel : channels)
+    written.push_back(channel.empty() ? fmt::format("{{\"type\": \"{}\"}}", id)
+                                      : fmt::format("{{\"type\": \"{}\", \"channel\": \"{}\"}}", id, channel));
+  one.mend = fmt::format("\"mechanisms\": [{}{}] into {}", written.front(),
+                         written.size() > 1 ? ", " + written.back() : std::string(), quoted(tests));
+  all.push_back(std::move(one));
+}
+
+/// Of a sheet each direction; where the mechanism takes both together, that too, and each with an amplitude of its own
+/// where it takes one alone.
+void add_directions(const MechanismFactory& mechanism, const std::vector<std::string>& tests, bool common,
+                    const std::vector<std::string>& directions, Corrections& all) {
+  for (const std::string& direction : directions) add(mechanism.id, tests, common, {direction}, all);
+  if (mechanism.id == "sheet_prestretch")
+    add(mechanism.id, tests, common, directions, all);
+  else
+    add(mechanism.id, tests, common, {""}, all);
+}
+
+/// "axial " of "stress_axial"
+std::string direction_words(const std::string& channel) {
+  return channel.size() > 7 ? channel.substr(7) + " " : std::string();
+}
+
+std::string sentence_of(const Addition& addition, double amplitude) {
+  const std::string tests = quoted(addition.place.tests), direction = direction_words(addition.place.channel);
+  const std::string& id = addition.id;
+  if (id == "displacement_offset")
+    return fmt::format("the true stretches of {} are {:.3g} {} than recorded", tests, std::abs(amplitude),
+                       amplitude < 0 ? "smaller" : "larger");
+  if (id == "zeroed_at_preload")
+    return fmt::format("force and length of {} were zeroed under load, at a stretch of {:.4g}", tests, 1 + amplitude);
+  if (id == "machine_compliance")
+    return fmt::format("frame and grips of {} take a stretch of {:.3g} for each kPa", tests, amplitude);
+  if (id == "sheet_prestretch" || id == "reference_length_error")
+    return fmt::format("the true {}stretches of {} are {:.4g} times the recorded ones", direction, tests,
+                       1 + amplitude);
+  if (id == "sheet_force_offset" || id == "force_offset")
+    return fmt::format("the {}load cell of {} shows {:.3g} kPa at no load", direction, tests, amplitude);
+  if (id == "sheet_force_scale_error" || id == "force_scale_error")
+    return fmt::format("the {}stresses of {} are {:.4g} times the true ones", direction, tests, 1 + amplitude);
+  return fmt::format("the readings of {} come {:.3g} s late", tests, amplitude);
+}
+
+}  // namespace
+
+void add_calibrations(const Record& record, const std::vector<std::string>& tests, const plugins::Catalogue& catalogue,
+                      Corrections& all) {
+  for (const auto& [id, entry] : catalogue.mechanisms()) {
+    const MechanismFactory& mechanism = entry.factory;
+    // In one test these are causes in the rig.
+    const bool of_the_rig = id == "force_offset" || id == "force_scale_error" || id == "reference_length_error";
+    if (!of_the_rig && !errs_in_the_record(id)) continue;
+    std::vector<std::string> fit_for, directions;
+    for (const std::string& test : tests) {
+      if (!acts_on(mechanism, record.test(test).type)) continue;
+      if (mechanism.memory && record.data(test).time.size() < 2) continue;
+      const std::vector<std::string> own = directions_of(record, test);
+      if (takes_channel(mechanism) && own.empty()) continue;
+      fit_for.push_back(test);
+      directions = own;
+    }
+    const auto add_in = [&](const std::vector<std::string>& in, bool common) {
+      if (takes_channel(mechanism))
+        add_directions(mechanism, in, common, directions, all);
+      else
+        add(id, in, common, {""}, all);
+    };
+    if (fit_for.size() > 1) add_in(fit_for, true);
+    if (of_the_rig) continue;
+    for (const std::string& test : fit_for) add_in({test}, fit_for.size() == 1 && tests.size() == 1);
+  }
+}
+
+std::string calibration_words(const Correction& correction, const std::vector<Amplitude>& amplitudes) {
+  std::string words;
+  for (std::size_t k = 0; k < correction.additions.size(); ++k)
+    words += (k > 0 ? ", and " : "") + sentence_of(correction.additions[k], amplitudes[k].value);
+  return words;
+}
+
+}  // namespace tunica::diagnosis
