@@ -7,10 +7,14 @@ mistake, and honest files with a real effect; let tunica diagnose them, and coun
     bench/wrong_files.py OUT --draws 3         three specimens of each
     bench/wrong_files.py OUT --reduced         every fourth mistake
     bench/wrong_files.py OUT --only measure    mistakes whose name has this word
+    bench/wrong_files.py OUT --unstated        nobody states the noise
+    bench/wrong_files.py OUT --full            without --quick
 
-A case is `right` where the mistake, or one that the data cannot tell from it, is named or stands in the verdict as a
-question; `false science` where a cause in the material or in the rig, or a term, is the verdict and no question is asked.
-Nothing here links or calls tunica but to diagnose. Needs numpy and scipy."""
+A mistake is right where it, or one that the data cannot tell from it, is `named`, or `tied`: it stands in the verdict as
+a question. `look-alike`: a cause in the rig that the catalogue lists as its look-alike is in the verdict. `false science`:
+another cause, or a term, is the verdict and no question is asked. Two strips alone are counted by themselves, because they
+often cannot tell a mistake from an effect; honest files with an error of the rig too, because the group `file` has such
+errors. Nothing here links or calls tunica but to diagnose. Needs numpy and scipy."""
 import argparse
 import concurrent.futures
 import json
@@ -34,6 +38,14 @@ DEVELOPMENT_SEED = 301
 UNITS = {"pressure": "kPa", "outer_diameter": "mm", "axial_force": "mN"}
 NOISE = 0.01  # of the range of every channel
 PROGRAM = os.environ.get("TUNICA", "tunica")
+# Causes in the rig that do what a mistake with an amplitude does.
+LOOK_ALIKES = {
+    "displacement_offset": {"reference_length_error", "zeroed_at_preload", "force_offset"},
+    "zeroed_at_preload": {"reference_length_error", "displacement_offset", "force_offset"},
+    "machine_compliance": {"reference_length_error", "force_scale_error"},
+    "sheet_prestretch": {"sheet_force_scale_error"}, "sheet_force_offset": {"outliers"},
+    "sheet_force_scale_error": {"sheet_prestretch"}, "force_scale_error": {"reference_length_error"},
+    "reference_length_error": {"force_scale_error", "displacement_offset"}}
 
 
 class Case:
@@ -42,6 +54,7 @@ class Case:
     def __init__(self, base: str, protocol: typing.Sequence[Curve], readings: np.ndarray, random: np.random.Generator):
         self.random = random
         self.inner: typing.Dict[str, np.ndarray] = {}
+        self.appended: typing.Set[str] = set()  # tests whose last two thirds stand in their file twice
         self.base, self.model = base, model_entry(base)
         self.tests: typing.Dict[str, typing.Dict[str, typing.Any]] = {}
         self.tables: typing.Dict[str, typing.Dict[str, np.ndarray]] = {}
@@ -72,7 +85,11 @@ class Case:
     def stresses(self, test: str) -> typing.List[str]:
         return [name for name in self.tables[test] if name.startswith("stress")]
 
-    def write(self, folder: pathlib.Path, share: float = NOISE) -> None:
+    def keep(self, tests: typing.Sequence[str]) -> None:
+        for name in [name for name in self.tests if name not in tests]:
+            del self.tests[name], self.tables[name]
+
+    def write(self, folder: pathlib.Path, stated: bool = True, share: float = NOISE) -> None:
         """`share`: noise, of the range of every channel."""
         folder.mkdir(parents=True, exist_ok=True)
         for name, table in self.tables.items():
@@ -82,7 +99,10 @@ class Case:
             units = {column: UNITS.get(column, "kPa" if "stress" in column else "-") for column in table}
             lines = [",".join(f"{column} [{units[column]}]" for column in table)]
             lines += [",".join(f"{value:.7g}" for value in row) for row in np.column_stack(list(table.values()))]
+            lines += lines[1 + len(lines) // 3:] if name in self.appended else []
             (folder / f"{name}.csv").write_text("\n".join(lines) + "\n")
+            if not stated:
+                del self.tests[name]["data"]["noise"]
         (folder / "experiment.json").write_text(json.dumps({
             "format": 1, "name": folder.name, "seed": 1, "models": {self.base: self.model}, "tests": self.tests,
             "objective": "least_squares", "optimizers": {"lm": {"type": "ceres_lm", "starts": 10}},
@@ -185,12 +205,78 @@ def total_force(case: Case, test: str) -> None:
     table["axial_force"] = table["axial_force"] + table["pressure"] * np.pi / 4 * case.inner[test]**2
 
 
+def percent(case: Case, tests: typing.List[str]) -> None:
+    """A column of per mille where percent is declared: strains of a tenth of what they are."""
+    in_strain(lambda l: 1 + (l - 1) / 10)(case, tests)
+
+
+def radii_times(inner: float, outer: float) -> Spoil:
+    def change(case: Case, test: str) -> None:
+        case.tests[test]["inner_radius"] *= inner
+        case.tests[test]["outer_radius"] *= outer
+    return in_tubes(change)
+
+
+def wall_times(factor: float) -> Spoil:
+    def change(case: Case, test: str) -> None:
+        inner, outer = case.tests[test]["inner_radius"], case.tests[test]["outer_radius"]
+        case.tests[test]["outer_radius"] = inner + factor * (outer - inner)
+    return in_tubes(change)
+
+
+def measured_strip(recorded: typing.Callable[[np.ndarray, np.ndarray], typing.Tuple[np.ndarray, np.ndarray]]) -> Spoil:
+    """Stretch and force over unloaded area as they are recorded, of the true ones. Stress is Cauchy's, from both."""
+    def spoil(case: Case, tests: typing.List[str]) -> None:
+        for test in tests:
+            table = case.tables[test]
+            if "stretch" not in table:
+                continue
+            nominal = case.tests[test]["data"].get("stress_measure") == "first_piola_kirchhoff"
+            stretch, force = recorded(table["stretch"], table["stress"] / (1 if nominal else table["stretch"]))
+            case.tables[test] = {"stretch": stretch, "stress": force * (1 if nominal else stretch)}
+    return spoil
+
+
+def zeroed(share: float) -> Spoil:
+    """Force and length at this share of the largest stretch, less 1, are the zeros; rows before it are not there."""
+    def recorded(stretch: np.ndarray, force: np.ndarray) -> typing.Tuple[np.ndarray, np.ndarray]:
+        first = int(np.searchsorted(stretch, 1 + share * (np.max(stretch) - 1)))
+        return stretch[first:] / stretch[first], force[first:] - force[first]
+    return measured_strip(recorded)
+
+
+def prestretched(names: typing.Sequence[str], amount: float) -> Spoil:
+    """Recorded stretches of a sheet are true ones over 1 + amount; stress is Cauchy's, from force and recorded stretch."""
+    def spoil(case: Case, tests: typing.List[str]) -> None:
+        for test in tests:
+            for name in names if test.startswith("sheet") else ():
+                case.tables[test][f"stretch_{name}"] = case.tables[test][f"stretch_{name}"] / (1 + amount)
+                case.tables[test][f"stress_{name}"] = case.tables[test][f"stress_{name}"] / (1 + amount)
+    return spoil
+
+
+def misread(names: typing.Sequence[str], gain: float, offset: float, sort: str = "sheet") -> Spoil:
+    """`offset` is a share of the range."""
+    def spoil(case: Case, tests: typing.List[str]) -> None:
+        for test in tests:
+            for name in names if sort in test else ():
+                y = case.tables[test][name]
+                case.tables[test][name] = (1 + gain) * y + offset * float(np.ptp(y))
+    return spoil
+
+
+def appended(case: Case, tests: typing.List[str]) -> None:
+    case.appended.update(tests)
+
+
 class Mistake(typing.NamedTuple):
     name: str
     base: str
     kind: str
     tests: typing.List[str]  # empty: all
     spoil: Spoil
+    only: typing.List[str] = []  # tests that the file has; empty: all
+    mechanism: str = ""  # of a mistake with an amplitude
 
 
 def mistakes() -> typing.List[Mistake]:
@@ -199,8 +285,10 @@ def mistakes() -> typing.List[Mistake]:
     sheets = [f"sheet_{k}" for k in range(1, 6)]
     pulled = ["uniaxial", "equibiaxial", "pure_shear"]
 
-    def add(name: str, kind: str, spoil: Spoil, base: str, tests: typing.List[str]) -> None:
-        found.append(Mistake(f"{name}-{base}-{'all' if len(tests) != 1 else tests[0]}", base, kind, tests, spoil))
+    def add(name: str, kind: str, spoil: Spoil, base: str, tests: typing.List[str], mechanism: str = "",
+            only: typing.Sequence[str] = ()) -> None:
+        found.append(Mistake(f"{name}-{base}-{'all' if len(tests) != 1 else tests[0]}", base, kind, tests, spoil, list(only),
+                             mechanism))
 
     tissue = ["circumferential_strip", "axial_strip", *sheets]
     everywhere = {"gho": tissue, "hgo": tissue, "mooney_rivlin": pulled}
@@ -235,8 +323,57 @@ def mistakes() -> typing.List[Mistake]:
         for name, kind, spoil in (
                 ("tube-inside", "geometry", in_tubes(inside)), ("tube-radius", "geometry", column_times("outer_diameter", 0.5)),
                 ("tube-change", "geometry", in_tubes(as_change)), ("tube-total-force", "geometry", in_tubes(total_force)),
-                ("tube-mmHg", "unit", column_times("pressure", 7.500617)), ("tube-gf", "unit", column_times("axial_force", 1 / 9.80665))):
+                ("tube-mmHg", "unit", column_times("pressure", 7.500617)), ("tube-gf", "unit", column_times("axial_force", 1 / 9.80665)),
+                ("tube-psi", "unit", column_times("pressure", 1 / 6.894757)),
+                ("tube-mbar", "unit", column_times("pressure", 10)),
+                ("tube-cmH2O", "unit", column_times("pressure", 10.19716)),
+                ("tube-lbf", "unit", column_times("axial_force", 1 / 4.448222)),
+                ("tube-N", "unit", column_times("axial_force", 1e-3)),
+                ("tube-radii-diameters", "geometry", radii_times(2, 2)),
+                ("tube-radii-half", "geometry", radii_times(0.5, 0.5)),
+                ("tube-wall-double", "geometry", wall_times(2)), ("tube-wall-half", "geometry", wall_times(0.5))):
             add(name, kind, spoil, "hgo", scope)
+
+    for base in ("gho", "hgo", "mooney_rivlin"):
+        for factor in (1000, 10, 7.500617, 6.894757, 4.448222, 1.35951, 4 / np.pi):
+            add(f"unit-by-{factor:.4g}", "unit", times(1 / factor), base, one[base])
+        for factor in (1.35951, 4 / np.pi):
+            add(f"unit-{factor:.4g}", "unit", times(factor), base, one[base])
+        add("strain-tenth", "other", percent, base, one[base])
+    strips = ["circumferential_strip", "axial_strip"]
+    both = ["circumferential", "axial"]
+    for base in ("gho", "hgo"):
+        add("unit-direction-1000", "unit", times(1000, "stress_axial"), base, ["sheet_3"])
+        add("unit-direction-9.807", "unit", times(9.80665, "stress_circumferential"), base, ["sheet_1"])
+        add("exchange-stress", "exchange", exchanged("stress"), base, sheets)
+        add("sign-stretch", "sign", opposite(True, False), base, strip)
+        add("sign-both", "sign", opposite(True, True), base, strip)
+        for scope in (strip, strips):
+            add("zero-stretch", "calibration", measured_strip(lambda l, p: (l - 0.03, p)), base, scope, "displacement_offset")
+            add("zero-slack", "calibration", measured_strip(lambda l, p: (l + 0.04, p)), base, scope, "displacement_offset")
+            add("zero-preload", "calibration", zeroed(0.3), base, scope, "zeroed_at_preload")
+            add("machine", "calibration", measured_strip(lambda l, p: (l + 0.05 * p / np.max(p), p)), base, scope,
+                "machine_compliance")
+        add("strips-gain", "calibration", misread(["stress"], 0.2, 0, "strip"), base, strips, "force_scale_error")
+        add("strips-length", "calibration", measured_strip(lambda l, p: (l / 1.05, p)), base, strips, "reference_length_error")
+        for scope in (sheet, sheets):
+            add("sheet-prestretch", "calibration", prestretched(["axial"], 0.05), base, scope, "sheet_prestretch")
+            add("sheet-prestretches", "calibration", prestretched(both, 0.04), base, scope, "sheet_prestretch")
+            add("sheet-offset", "calibration", misread(["stress_axial"], 0, 0.1), base, scope, "sheet_force_offset")
+            add("sheet-gain", "calibration", misread(["stress_circumferential"], 0.2, 0), base, scope, "sheet_force_scale_error")
+        add("appended", "inspection", appended, base, sheet)
+    # Two strips and nothing else.
+    for base in ("gho", "hgo"):
+        for name, kind, spoil, mechanism in (
+                ("nominal", "stress_measure", in_measure(-1), ""), ("hencky", "strain_definition", in_strain(lambda l: 1 + np.log(l)), ""),
+                ("green", "strain_definition", in_strain(lambda l: 1 + (l * l - 1) / 2), ""),
+                ("9.807", "unit", times(9.80665), ""), ("1000", "unit", times(1000), ""), ("4", "unit", times(4), ""),
+                ("sign", "sign", opposite(False, True), ""), ("preload", "calibration", zeroed(0.3), "zeroed_at_preload"),
+                ("machine", "calibration", measured_strip(lambda l, p: (l + 0.05 * p / np.max(p), p)), "machine_compliance"),
+                ("zero", "calibration", measured_strip(lambda l, p: (l - 0.03, p)), "displacement_offset")):
+            for scope in (strips, strip):
+                add(f"two-strips-{name}", kind, spoil, base, scope, mechanism, strips)
+        add("two-strips-exchange", "exchange", exchanged("both"), base, strips, "", strips)
     return found
 
 
@@ -260,12 +397,12 @@ def honest(base: str, seed: int, held: bool, tubes: bool = False) -> Case:
     return case
 
 
-def diagnosed(folder: pathlib.Path) -> typing.Tuple[typing.Dict[str, typing.Any], float]:
+def diagnosed(folder: pathlib.Path, full: bool) -> typing.Tuple[typing.Dict[str, typing.Any], float]:
     """The diagnosis of a folder, and CPU seconds."""
     out = folder / "out"
     if not (out / "result.json").exists():
         told = subprocess.run(
-            ["/usr/bin/time", "-f", "%U", PROGRAM, "diagnose", "--quick", "--quiet", str(folder / "experiment.json"), "-o",
+            ["/usr/bin/time", "-f", "%U", PROGRAM, "diagnose", *([] if full else ["--quick"]), "--quiet", str(folder / "experiment.json"), "-o",
              str(out)], capture_output=True, text=True, check=False)
         (folder / "said.txt").write_text(told.stdout + told.stderr)
     if not (out / "result.json").exists():
@@ -274,20 +411,28 @@ def diagnosed(folder: pathlib.Path) -> typing.Tuple[typing.Dict[str, typing.Any]
     return json.loads((out / "result.json").read_text())["diagnosis"], seconds
 
 
-def judged(d: typing.Dict[str, typing.Any], kind: str, tests: typing.List[str], everything: typing.List[str]) -> str:
+def judged(d: typing.Dict[str, typing.Any], mistake: Mistake, tests: typing.List[str], everything: typing.List[str]) -> str:
     """What the diagnosis makes of a file with this mistake. A mistake in some tests is the reverse one in all others."""
     if not d:
         return "refused"
+    file = d.get("file", {"standing": "not_looked_for", "causes": []})
+    if mistake.kind == "inspection" and file.get("suspect"):
+        return "named"
     if d["verdict"] == "nothing_detected":
         return "silent"
-    file = d.get("file", {"standing": "not_looked_for", "causes": []})
+    mirror = sorted(set(everything) - set(tests))
     if file["standing"] in ("near", "ahead"):
-        mirror = sorted(set(everything) - set(tests))
+        alike = {mistake.mechanism, *LOOK_ALIKES.get(mistake.mechanism, ())}
         for cause in file["causes"]:
-            if cause["near"] and cause["kind"] == kind and (sorted(cause["tests"]) in (sorted(tests), mirror) or kind == "angle"):
+            if cause["near"] and cause["kind"] == mistake.kind and cause.get("mechanism", "") in alike and (
+                    sorted(cause["tests"]) in (sorted(tests), mirror) or mistake.kind == "angle"):
                 return "named" if file["standing"] == "ahead" else "tied"
         if any(cause["near"] for cause in file["causes"]):
             return "other mistake"
+    claimed = {cause["id"] for cause in d.get("causes", [])
+               if sorted(cause["target"].get("tests", [cause["target"].get("test", "")])) in (sorted(tests), mirror)}
+    if claimed & LOOK_ALIKES.get(mistake.mechanism, set()):
+        return "look-alike"
     return "false science" if d["verdict"] in ("named", "discovered", "indistinguishable", "leading") else d["verdict"]
 
 
@@ -299,38 +444,44 @@ def main() -> int:
     parser.add_argument("--only", default="")
     parser.add_argument("--seed", type=int, default=DEVELOPMENT_SEED)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--unstated", action="store_true", help="nobody states the noise")
+    parser.add_argument("--full", action="store_true", help="without --quick")
+    parser.add_argument("--stride", type=int, default=1, help="every so many mistakes")
     parser.add_argument("--effects", type=int, default=4, help="honest files with a real effect, of each base and size")
     told = parser.parse_args()
-    chosen = [one for one in mistakes() if told.only in one.name][::4 if told.reduced else 1]
+    chosen = [one for one in mistakes() if told.only in one.name][::4 if told.reduced else told.stride]
     jobs: typing.List[typing.Tuple[pathlib.Path, typing.Optional[Mistake], typing.List[str]]] = []
     for mistake in chosen:
         for k in range(told.draws):
             case = honest(mistake.base, told.seed + k, mistake.kind == "angle", mistake.name.startswith("tube"))
+            if mistake.only:
+                case.keep(mistake.only)
             everything = list(case.tests)
             mistake.spoil(case, mistake.tests or everything)
-            folder = told.out / "mistakes" / f"{mistake.name}-{k}"
-            case.write(folder)
+            group = "two strips alone" if mistake.only else "calibration" if mistake.mechanism else "mistakes"
+            folder = told.out / group.replace(" ", "_") / f"{mistake.name}-{k}"
+            case.write(folder, not told.unstated)
             jobs.append((folder, mistake, everything))
     for base in ("gho", "hgo", "mooney_rivlin") if not told.only else ():
         for target in (60, 150):
             for k in range(told.effects):
-                name = make(Spec("single", base, target, k, "white", True), told.seed, told.out / "effects")
-                jobs.append((told.out / "effects" / "cases" / name, None, []))
+                for what, folder in (("single", "effects"), ("rig", "rig_errors")):
+                    name = make(Spec(what, base, target, k, "white", not told.unstated), told.seed, told.out / folder)
+                    jobs.append((told.out / folder / "cases" / name, None, []))
         for k in range(told.effects):
             folder = told.out / "honest" / f"{base}-{k}"
-            honest(base, told.seed + 1000 + k, False).write(folder)
+            honest(base, told.seed + 1000 + k, False).write(folder, not told.unstated)
             jobs.append((folder, None, []))
     with concurrent.futures.ThreadPoolExecutor(told.jobs) as pool:
-        found = list(pool.map(lambda job: diagnosed(job[0]), jobs))
+        found = list(pool.map(lambda job: diagnosed(job[0], told.full), jobs))
     counts: typing.Dict[str, typing.List[str]] = {}
     for (folder, mistake, everything), (d, seconds) in zip(jobs, found):
         file = d.get("file", {})
+        group = folder.relative_to(told.out).parts[0].replace("_", " ")
         if mistake is None:
-            group = folder.relative_to(told.out).parts[0]
             word = f"file {file.get('standing')}" if d.get("verdict") != "nothing_detected" else "silent"
         else:
-            group = "mistakes"
-            word = judged(d, mistake.kind, mistake.tests or everything, everything)
+            word = judged(d, mistake, mistake.tests or everything, everything)
         counts.setdefault(group, []).append(word)
         first = file["causes"][0] if file.get("causes") else {}
         print(f"{word:14} {folder.name:44} {seconds:6.1f} s {d.get('verdict')}; {file.get('standing')}, lead "
