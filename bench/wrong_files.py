@@ -205,8 +205,8 @@ def total_force(case: Case, test: str) -> None:
     table["axial_force"] = table["axial_force"] + table["pressure"] * np.pi / 4 * case.inner[test]**2
 
 
-def percent(case: Case, tests: typing.List[str]) -> None:
-    """A column of per mille where percent is declared: strains of a tenth of what they are."""
+def tenth(case: Case, tests: typing.List[str]) -> None:
+    """Strains of a tenth of what they are: millimetres for centimetres."""
     in_strain(lambda l: 1 + (l - 1) / 10)(case, tests)
 
 
@@ -339,7 +339,7 @@ def mistakes() -> typing.List[Mistake]:
             add(f"unit-by-{factor:.4g}", "unit", times(1 / factor), base, one[base])
         for factor in (1.35951, 4 / np.pi):
             add(f"unit-{factor:.4g}", "unit", times(factor), base, one[base])
-        add("strain-tenth", "other", percent, base, one[base])
+        add("strain-tenth", "strain_definition", tenth, base, one[base])
     strips = ["circumferential_strip", "axial_strip"]
     both = ["circumferential", "axial"]
     for base in ("gho", "hgo"):
@@ -429,9 +429,11 @@ def judged(d: typing.Dict[str, typing.Any], mistake: Mistake, tests: typing.List
                 return "named" if file["standing"] == "ahead" else "tied"
         if any(cause["near"] for cause in file["causes"]):
             return "other mistake"
-    claimed = {cause["id"] for cause in d.get("causes", [])
-               if sorted(cause["target"].get("tests", [cause["target"].get("test", "")])) in (sorted(tests), mirror)}
-    if claimed & LOOK_ALIKES.get(mistake.mechanism, set()):
+    targets = [(cause["id"], cause["target"] or {}) for cause in d.get("causes", [])]
+    claimed = {name for name, at in targets if sorted(at.get("tests", [at.get("test", "")])) in (sorted(tests), mirror)}
+    # A gain of a strip is also the area that its force was divided by.
+    alike = {"force_scale_error"} if mistake.kind == "unit" else LOOK_ALIKES.get(mistake.mechanism, set())
+    if claimed & alike:
         return "look-alike"
     return "false science" if d["verdict"] in ("named", "discovered", "indistinguishable", "leading") else d["verdict"]
 

@@ -221,7 +221,7 @@ MechanismFactory channel_lag() {
       "channel_lag", {},
       {"lag", "s", 0, 0, 100, Scale::linear, "Time by which the readings come late against what is prescribed.", ""}, 0,
       10,
-      {"A channel comes late: a filter, or two clocks. Its error grows with the rate.",
+      {"A channel comes late, by a filter or by another clock: its error grows with the rate.",
        {"viscoelasticity", "signal_drift", "stress_softening"},
        "the same loop at another rate",
        "Ljung, System Identification, 2nd ed. (1999), 14.2"});

@@ -175,6 +175,8 @@ void add_strain_definitions(const Record& record, const std::vector<std::string>
   };
   add_scaled(0.01, "percents, not fractions", "the unit % in the header of the strains");
   add_scaled(100, "fractions, not percents", "the unit 1 in the header of the strains");
+  add_scaled(10, "ten times what the file says", "the unit of the displacement, or the gauge length,");
+  add_scaled(0.1, "a tenth of what the file says", "the unit of the displacement, or the gauge length,");
   std::vector<std::string> stretched;
   for (const std::string& test : strained)
     if (declared(record, test) == Kind::own) stretched.push_back(test);

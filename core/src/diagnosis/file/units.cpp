@@ -18,8 +18,8 @@ namespace tunica::diagnosis {
 namespace {
 
 /// What numbers are multiplied by where a unit, an area or a prefix is another one than the file says.
-constexpr std::array factors{1000.0,   9.80665, 10.0, 7.500617, 6.894757,
-                             4.448222, 4.0,     2.0,  1.359510, 4 / 3.14159265358979};
+constexpr std::array factors{
+    1000.0, 9.80665, 10.0, 10.19716, 7.500617, 6.894757, 4.448222, 4.0, 2.0, 1.359510, 4 / 3.14159265358979};
 
 constexpr std::array stress_units{"Pa", "kPa", "MPa", "mmHg", "cmH2O", "psi", "bar", "mbar", "kgf/cm2", "gf/mm2"},
     force_units{"mN", "N", "gf", "kgf", "lbf", "uN", "kN", "cN", "ozf", "mgf"},
