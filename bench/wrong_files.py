@@ -89,7 +89,7 @@ class Case:
         for name in [name for name in self.tests if name not in tests]:
             del self.tests[name], self.tables[name]
 
-    def write(self, folder: pathlib.Path, stated: bool = True, share: float = NOISE) -> None:
+    def write(self, folder: pathlib.Path, share: float = NOISE, stated: bool = True) -> None:
         """`share`: noise, of the range of every channel."""
         folder.mkdir(parents=True, exist_ok=True)
         for name, table in self.tables.items():
@@ -397,7 +397,7 @@ def honest(base: str, seed: int, held: bool, tubes: bool = False) -> Case:
     return case
 
 
-def diagnosed(folder: pathlib.Path, full: bool) -> typing.Tuple[typing.Dict[str, typing.Any], float]:
+def diagnosed(folder: pathlib.Path, full: bool = False) -> typing.Tuple[typing.Dict[str, typing.Any], float]:
     """The diagnosis of a folder, and CPU seconds."""
     out = folder / "out"
     if not (out / "result.json").exists():
@@ -462,7 +462,7 @@ def main() -> int:
             mistake.spoil(case, mistake.tests or everything)
             group = "two strips alone" if mistake.only else "calibration" if mistake.mechanism else "mistakes"
             folder = told.out / group.replace(" ", "_") / f"{mistake.name}-{k}"
-            case.write(folder, not told.unstated)
+            case.write(folder, stated=not told.unstated)
             jobs.append((folder, mistake, everything))
     for base in ("gho", "hgo", "mooney_rivlin") if not told.only else ():
         for target in (60, 150):
@@ -472,7 +472,7 @@ def main() -> int:
                     jobs.append((told.out / folder / "cases" / name, None, []))
         for k in range(told.effects):
             folder = told.out / "honest" / f"{base}-{k}"
-            honest(base, told.seed + 1000 + k, False).write(folder, not told.unstated)
+            honest(base, told.seed + 1000 + k, False).write(folder, stated=not told.unstated)
             jobs.append((folder, None, []))
     with concurrent.futures.ThreadPoolExecutor(told.jobs) as pool:
         found = list(pool.map(lambda job: diagnosed(job[0], told.full), jobs))
