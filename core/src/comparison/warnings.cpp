@@ -228,9 +228,21 @@ void warn_of_loose_parameters(const RunSummary& run, Warnings& warnings) {
        run.label, names});
 }
 
+/// Whether a model of the run has parts that stand for fibres.
+bool has_fibres(const execution::PlannedRun& planned, const std::string& name) {
+  const auto& models = planned.assembly->models();
+  for (std::size_t m = 0; m < models.count(); ++m) {
+    if (models.name(m) != name) continue;
+    const auto parts = models.model(m).parts();
+    return std::any_of(parts.begin(), parts.end(),
+                       [](const auto& part) { return part->describe().role == EnergyPart::Role::fibre; });
+  }
+  return false;
+}
+
 /// `of_model`: "model 'media': " where the run has several, else empty.
 void warn_of_instability(const RunSummary& run, const std::string& of_model, const StabilitySummary::OfModel& model,
-                         Warnings& warnings) {
+                         bool fibres, Warnings& warnings) {
   const auto& verdict = model.verdict;
   const auto warn = [&](WarningKind kind, const std::string& sentence) {
     warnings.push_back({kind, of_model + sentence, run.label, {model.name}});
@@ -246,7 +258,7 @@ void warn_of_instability(const RunSummary& run, const std::string& of_model, con
                pulled ? "pulled" : "pressed", strip.axis == 0 ? "circumferential" : "axial", pulled ? "grows" : "falls",
                from ? fmt::format(" {} stretch {:.4g}", pulled ? "from" : "below", *from) : "",
                strip.judged_from < 1 ? fmt::format("from {:.4g} ", strip.judged_from) : "", strip.judged_to,
-               verdict.drucker ? "" : ". Fibres are the more stable the more they are dispersed"));  // none: isotropic
+               fibres ? ". Fibres are the more stable the more they are dispersed" : ""));
     }
   if (verdict.ellipticity.first_lost)
     warn(WarningKind::ellipticity_lost,
@@ -264,12 +276,12 @@ void warn_of_instability(const RunSummary& run, const std::string& of_model, con
                      text::joined(model.inadmissible)));
 }
 
-void warn_of_instability(const RunSummary& run, Warnings& warnings) {
+void warn_of_instability(const execution::PlannedRun& planned, const RunSummary& run, Warnings& warnings) {
   if (!run.stability) return;
   const auto& models = run.stability->models;
   for (const auto& model : models)
     warn_of_instability(run, models.size() > 1 ? fmt::format("model '{}': ", model.name) : std::string(), model,
-                        warnings);
+                        has_fibres(planned, model.name), warnings);
 }
 
 /// "600 times: …; 3 times: …", or the first where there is one kind.
@@ -346,8 +358,9 @@ std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const s
   for (std::size_t run = 0; run < runs.size(); ++run)
     if (runs[run].status.ok()) warn_of_small_misfit(plan, runs, run, warnings);
   for (auto& warning : preferences(runs, ranking)) warnings.push_back(std::move(warning));
-  for (const auto& run : runs)
-    if (run.status.ok()) warn_of_instability(run, warnings);  // of the others the constraint says it
+  for (std::size_t run = 0; run < runs.size(); ++run)
+    if (runs[run].status.ok())  // of the others the constraint says it
+      warn_of_instability(plan.runs[run], runs[run], warnings);
   for (const auto& run : runs) warn_of_bounds(run, warnings);
   for (const auto& run : runs)
     if (run.has_result) warn_of_default_bounds(run, warnings);
