@@ -101,3 +101,15 @@ TEST_F(Export, RefusesAModelThatAMechanismChanges) {
   EXPECT_THAT(refused({"out", "--to", "abaqus"}),
               HasSubstr("the mechanism 'chain_extensibility' changes the model 'wall', and no card has it"));
 }
+
+// Runs of different tests have objectives that cannot be compared, so that none of them is the best.
+TEST_F(Export, TakesNoRunOfSeveralThatCannotBeCompared) {
+  const std::string test = bench.experiment["tests"].begin().key();
+  bench.experiment["models"] = {{"wall", {{"type", "neo_hooke"}}}};
+  bench.experiment["runs"] = {{{"model", "wall"}, {"optimizer", "lm"}},
+                              {{"model", "wall"}, {"optimizer", "lm"}, {"tests", {test}}}};
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  EXPECT_THAT(refused({"out", "--to", "calculix"}),
+              AllOf(HasSubstr("none is the best of all"), HasSubstr("choose with --run")));
+  EXPECT_EQ(exported({"out", "--to", "calculix", "--run", "wall/lm"}).code, 0);
+}

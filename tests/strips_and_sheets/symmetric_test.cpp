@@ -65,6 +65,17 @@ TEST(SymmetricStrip, NoSetOfMooneyRivlinFailsOnStretchesTo18) {
   }
 }
 
+// The limit Jm lies beyond I1 − 3 = 321.1, which is that at the stretch 18.
+TEST(SymmetricStrip, NoSetOfGentFailsInsideItsLimit) {
+  const auto model = make_model("gent");
+  std::mt19937_64 engine(49);
+  std::uniform_real_distribution<double> modulus(1, 500), limit(322, 2000);
+  for (int draw = 0; draw < 200; ++draw) {
+    const std::vector<double> p{modulus(engine), limit(engine)};
+    expect_everywhere(*model, p, [&p](double i1) { return std::pair(0.5 * p[0] * p[1] / (p[1] - (i1 - 3)), 0.); });
+  }
+}
+
 TEST(SymmetricStrip, NoSetOfOgdenFailsOnStretchesTo18) {
   const auto model = make_model("ogden");
   std::mt19937_64 engine(46);
