@@ -229,8 +229,7 @@ TEST(DiscoveryWordsOfTerms, NameInvariantAndLaw) {
 
 TEST(DiscoveryWordsOfTerms, EveryReasonHasACodeOfItsOwn) {
   std::set<std::string> codes;
-  for (int k = 0; k <= static_cast<int>(ReasonKind::same_model); ++k)
-    codes.insert(code_of(static_cast<ReasonKind>(k)));
+  for (int k = 0; k <= static_cast<int>(ReasonKind::same_model); ++k) codes.insert(code_of(static_cast<ReasonKind>(k)));
   EXPECT_THAT(codes, SizeIs(16));
 }
 

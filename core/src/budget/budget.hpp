@@ -29,10 +29,10 @@ struct Budget {
   Size base;
   std::vector<ChannelSize> base_channels, rest_channels;  ///< rest: after the last step
   std::vector<Step> steps;
-  std::vector<Contender> contenders;   ///< largest share first; empty where the causes leave noise
-  double unlisted_probability = 0;     ///< of "no listed cause, only a smooth misfit"; of meaning with contenders
-  bool rough = false;                  ///< what is left is rougher than an unlisted misfit may be: no name is given
-  std::optional<Contender> lead;       ///< with_verdict_of() sets it where one cause leads
+  std::vector<Contender> contenders;  ///< largest share first; empty where the causes leave noise
+  double unlisted_probability = 0;    ///< of "no listed cause, only a smooth misfit"; of meaning with contenders
+  bool rough = false;                 ///< what is left is rougher than an unlisted misfit may be: no name is given
+  std::optional<Contender> lead;      ///< with_verdict_of() sets it where one cause leads
   /// What takes most of the misfit if the file does not say what is so; share 0: nothing.
   struct {
     std::string sentence, mend;

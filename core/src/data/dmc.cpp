@@ -72,9 +72,8 @@ struct Calibration {
 }  // namespace
 
 bool dmc_as_table(const std::filesystem::path& file, std::string_view text, std::string& table) {
-  constexpr std::string_view begins = "Test Data in Volts";
-  if (text.find(begins) == std::string_view::npos || text.find("Calibration Data") == std::string_view::npos)
-    return false;
+  constexpr std::string_view begins = "Test Data in Volts", calibrates = "Calibration Data";  // headings of the format
+  if (text.find(begins) == std::string_view::npos || text.find(calibrates) == std::string_view::npos) return false;
   const auto lines = lines_of(text);
   Calibration calibration;
   std::size_t header = 0;

@@ -95,7 +95,7 @@ std::string joined_table(const Answers& answers) {
       }
       if (!guess.numeric || guess.quantity.empty() || (time && k > 0)) continue;
       header += mark + in_quotes(guess.title + (time ? "" : " " + parts[k].direction) +
-                              (guess.unit.empty() ? "" : " [" + guess.unit + "]"));
+                                 (guess.unit.empty() ? "" : " [" + guess.unit + "]"));
       const char decimal = parts[k].csv.decimal_mark({column});
       for (std::size_t row = 0; row < lines.size(); ++row) {
         std::string cell = parts[k].csv.rows[row].cells[column];
