@@ -37,7 +37,8 @@ from hidden_terms.tubes import inflation  # noqa: E402
 DEVELOPMENT_SEED = 301
 UNITS = {"pressure": "kPa", "outer_diameter": "mm", "axial_force": "mN"}
 NOISE = 0.01  # of the range of every channel
-PROGRAM = os.environ.get("TUNICA", "tunica")
+BUILT = pathlib.Path(__file__).resolve().parents[1] / "build/release/bin/tunica"
+PROGRAM = os.environ.get("TUNICA", str(BUILT))  # another program: TUNICA=/path/to/tunica
 # Causes in the rig that do what a mistake with an amplitude does.
 LOOK_ALIKES = {
     "displacement_offset": {"reference_length_error", "zeroed_at_preload", "force_offset"},
@@ -404,6 +405,8 @@ def diagnosed(folder: pathlib.Path, full: bool = False) -> typing.Tuple[typing.D
         told = subprocess.run(
             ["/usr/bin/time", "-f", "%U", PROGRAM, "diagnose", *([] if full else ["--quick"]), "--quiet", str(folder / "experiment.json"), "-o",
              str(out)], capture_output=True, text=True, check=False)
+        if told.returncode in (126, 127):
+            raise SystemExit(f"{PROGRAM} cannot be run; build it, or set TUNICA")
         (folder / "said.txt").write_text(told.stdout + told.stderr)
     if not (out / "result.json").exists():
         return {}, 0
