@@ -21,7 +21,7 @@ TEST(VanishingNoise, OfRowsNearZeroIsToldOfWhereTheyCarryTheMisfit) {
   };
   EXPECT_THAT(with({{"relative", 0.01}}),
               Contains(AllOf(HasSubstr("purely relative noise makes rows near zero almost exact: "),
-                             HasSubstr("axial, stress ("), HasSubstr("State noise.absolute too"))));
+                             HasSubstr("circumferential, stress ("), HasSubstr("State noise.absolute too"))));
   EXPECT_THAT(with({{"absolute", 0.3}, {"relative", 0.01}}), Not(Contains(HasSubstr("purely relative"))));
 }
 

@@ -259,8 +259,8 @@ struct FibreSpecimen : Specimen {
 TEST(OneSearch, TriesFibresWhereTheyMayBe) {
   const std::vector<std::string> isotropic{"I1_linear"}, both{"I1_linear", "fibre_circumferential_quadratic"};
   const FibreSpecimen one(levels_with_fibres(5));
-  EXPECT_EQ(best_of(one.discover()), both);
-  EXPECT_THAT(said_of(one, {"terms of fibres"}), ElementsAre(Pair("terms of fibres", 0.6)));
+  EXPECT_EQ(best_of(one.discover()), isotropic) << "no two rows at the same stretch show two directions";
+  EXPECT_THAT(said_of(one, {"terms of fibres"}), IsEmpty());
   EXPECT_EQ(best_of(FibreSpecimen(levels_with_fibres(5), false).discover()), isotropic) << "one direction";
   FibreSpecimen beside(levels_with_fibres(5));
   beside.request.from_nothing = false;
