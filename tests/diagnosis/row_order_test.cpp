@@ -156,7 +156,7 @@ TEST(RowOrder, OfOneTestIsEnoughForAMemoryOfTheMaterial) {
               ::testing::ElementsAre(HasSubstr("the rows of 'axial' were measured")));
 }
 
-// The axial strip begins far from rest: nobody knows what it bore, so the material's memory is looked for nowhere.
+// The axial strip begins far from rest. What it bore before is unknown, so no memory of the material is looked for.
 TEST(RowOrder, WithoutAPastADriftOfTheSensorIsNoName) {
   Measured measured({{.stretch = cycles(1.02)}, {.name = "axial", .stretch = testing::evenly(1.6, 1.02, 30)}});
   measured.measure(3, [](json& truth) {
