@@ -151,20 +151,11 @@ json covariance(const ParameterCovariance& found) {
 /// Beyond noise: of all rows as a share of the range, and of each channel in its unit.
 json misfit_size(const RunSummary& run) {
   if (!run.size) return nullptr;
-  json channels = json::array();
-  for (const assembly::ChannelSize& one : run.sizes)
-    channels.push_back({{"test", one.test},
-                        {"channel", one.channel},
-                        {"unit", one.unit},
-                        {"range", one.range},
-                        {"rms", one.rms},
-                        {"rms_upper", one.upper},
-                        {"rows", one.rows}});
   return {{"rms", run.size->rms},
           {"rms_upper", run.size->upper},
           {"tolerance", or_null(run.tolerance)},
           {"adequate", run.tolerance ? json(run.size->upper <= *run.tolerance) : json(nullptr)},
-          {"channels", std::move(channels)}};
+          {"channels", channel_sizes_json(run.sizes)}};
 }
 
 json best(const RunSummary& run) {
@@ -280,6 +271,19 @@ json run_json(const RunSummary& run) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json channel_sizes_json(const std::vector<assembly::ChannelSize>& sizes) {
+  json all = json::array();
+  for (const assembly::ChannelSize& one : sizes)
+    all.push_back({{"test", one.test},
+                   {"channel", one.channel},
+                   {"unit", one.unit},
+                   {"range", one.range},
+                   {"rms", one.rms},
+                   {"rms_upper", one.upper},
+                   {"rows", one.rows}});
+  return all;
+}
 
 json misfit_json(const assembly::Misfit& misfit) {
   return {{"chi_square", misfit.chi_square},           {"rows", misfit.rows},

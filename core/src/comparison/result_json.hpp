@@ -20,6 +20,9 @@ nlohmann::ordered_json warning_json(const execution::Warning& warning);
 /// `misfit` of a run's best point, and of the base of a diagnosis.
 nlohmann::ordered_json misfit_json(const assembly::Misfit& misfit);
 
+/// How far each channel is missed, in its unit: of a run's best point, and of a diagnosis.
+nlohmann::ordered_json channel_sizes_json(const std::vector<assembly::ChannelSize>& sizes);
+
 /// `provenance` of result.json.
 nlohmann::ordered_json provenance_json(const Provenance& provenance);
 

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "budget/output/outputs.hpp"
+#include "comparison/result_json.hpp"
 #include "diagnosis/output/fitted_experiment.hpp"
 #include "diagnosis/output/outputs.hpp"
 #include "experiment/reader.hpp"
@@ -13,19 +14,6 @@ using json = nlohmann::ordered_json;
 
 const char* belief_code(Belief belief) {
   return belief == Belief::plausible ? "plausible" : belief == Belief::flagged ? "flagged" : "beyond";
-}
-
-json channels_json(const std::vector<ChannelSize>& channels) {
-  json all = json::array();
-  for (const ChannelSize& one : channels)
-    all.push_back({{"test", one.test},
-                   {"channel", one.channel},
-                   {"unit", one.unit},
-                   {"range", one.range},
-                   {"rms", one.rms},
-                   {"rms_upper", one.upper},
-                   {"rows", one.rows}});
-  return all;
 }
 
 }  // namespace
@@ -58,8 +46,8 @@ json budget_json(const Budget& budget) {
                  {"rms_upper", budget.base.upper},
                  {"steps", std::move(steps)},
                  {"adequate", budget.adequate},
-                 {"channels", channels_json(budget.base_channels)},
-                 {"rest", channels_json(budget.rest_channels)}};
+                 {"channels", comparison::channel_sizes_json(budget.base_channels)},
+                 {"rest", comparison::channel_sizes_json(budget.rest_channels)}};
   if (!budget.same_model.empty()) result["same_model"] = {{"type", budget.same_model}, {"with", budget.same_with}};
   if (budget.contenders.empty()) return result;
   if (budget.lead)
