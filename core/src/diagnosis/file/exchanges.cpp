@@ -112,12 +112,20 @@ void add_signs(const Record& record, const std::vector<std::string>& tests, Corr
   std::vector<std::string> stressed;
   for (const std::string& test : tests)
     if (!stresses_in(record, test).empty() && !stretches_in(record, test).empty()) stressed.push_back(test);
+  // The key turns forces, stresses, displacements and strains. A stretch has no sign to turn.
+  const auto mend = [](bool stretches, bool stresses) {
+    return !stretches ? "\"compression\": \"positive\" for the stress or the force"
+           : stresses
+               ? "\"compression\": \"positive\", and 2 less the value in a column of stretches,"
+               : "2 less the value in a column of stretches, or \"compression\": \"positive\" for one of strains or "
+                 "displacements,";
+  };
   const auto add = [&](const char* what, bool stretches, bool stresses) {
     add_for_each_and_all(
         FileKind::sign, stressed,
         [&](const std::vector<std::string>& in) -> Wording {
           return {fmt::format("the {} of {} count compression positive", what, quoted(in)),
-                  fmt::format("\"compression\": \"positive\" in the data of {}", quoted(in))};
+                  fmt::format("{} in the data of {}", mend(stretches, stresses), quoted(in))};
         },
         [stretches, stresses](Record& read, const std::string& test) {
           if (stretches)
