@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t most_fits = 12;  ///< corrections, those that see most
 constexpr double least_seen = 6;       ///< of |r|², at the null
-constexpr std::size_t evaluations = 60, short_search = 30;
+constexpr std::size_t full_search = 60, short_search = 30;
 constexpr std::size_t calibration_starts = 3;
 constexpr double smallest_gain = 2;  ///< of |r|²: less is no explanation
 
@@ -98,8 +98,8 @@ class Calibrating {
     const assembly::UnitBox& box = evidence_.base->box();
     std::vector<double> point(evidence_.fit.free.size()), unit(point.size());
     box.from_unit(box.initial(), point);
-    for (const double share : {1.0, 0.3}) try_from(evidence_.fit.free, share, evaluations);
-    try_from(point, 1, evaluations);
+    for (const double share : {1.0, 0.3}) try_from(evidence_.fit.free, share, full_search);
+    try_from(point, 1, full_search);
     boost::random::mt19937_64 generator(derive_seed(inquiry_.request.seed, seen.correction->mend));
     boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
     for (std::size_t k = 0; k < calibration_starts; ++k) {
