@@ -3,6 +3,7 @@
 // them. Noise is 1 % of each range; seeds are stated. A true base raises a false alarm in 1 of 20 files.
 #include <cmath>
 #include <random>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -178,6 +179,25 @@ TEST(File, TheMendedExperimentStandsAsItIsWritten) {
   }
   EXPECT_THAT(names, ::testing::ElementsAre("mended_sheet_1.csv", "mended.json"));
   EXPECT_EQ(wall.diagnose("mended.json").explanation.verdict, Verdict::nothing_detected);
+}
+
+// Nobody says the order, so the diagnosis sorts the rows; a hold-out counts those of the file.
+TEST(File, MendedRowsStandAsTheFileHasThem) {
+  Wall wall;
+  wall.measure(2, [](json& truth) { truth["tests"]["sheet_1"]["data"]["stress_measure"] = "second_piola_kirchhoff"; });
+  for (auto& [column, values] : wall.tables.at("sheet_1").values) std::reverse(values.begin(), values.end());
+  wall.write();
+  json& sheet = wall.experiment["tests"]["sheet_1"];
+  sheet["data"].erase("order");
+  sheet["hold_out"] = "0:2";
+  const Diagnosis found = wall.diagnose();
+  const auto files = diagnosis::mended_files(found, wall.folder.path(), testing::catalogue());
+  ASSERT_EQ(files.size(), 2u) << diagnosis::summary(found).plain();
+  std::istringstream rows(files.front().text);
+  std::string heading, first;
+  std::getline(rows, heading);
+  std::getline(rows, first);
+  EXPECT_NEAR(std::stod(first), 1.35, 1e-12) << "the largest stretch stands first in the file";
 }
 
 TEST(File, WithoutTheGroupNothingOfItIsSaid) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -35,12 +36,18 @@ std::vector<Column> columns_of(const data::Dataset& data, const std::vector<Obse
   return columns;
 }
 
-std::string table_of(const std::vector<Column>& columns, std::size_t rows) {
+/// Rows in the order of the file, in which a hold-out counts them.
+std::string table_of(const std::vector<Column>& columns, const data::Dataset& data) {
+  std::vector<std::size_t> rows(data.count);
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  if (!data.file_rows.empty())
+    std::sort(rows.begin(), rows.end(),
+              [&](std::size_t a, std::size_t b) { return data.file_rows[a] < data.file_rows[b]; });
   std::string text;
   for (const Column& column : columns)
     text += fmt::format("{}{}", text.empty() ? "" : ",", text::csv_cell(text::titled(column.observable, column.unit)));
   text += '\n';
-  for (std::size_t row = 0; row < rows; ++row)
+  for (const std::size_t row : rows)
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const double value = (*columns[k].values)[row];
       text += fmt::format("{}{}{}", k > 0 ? "," : "", std::isnan(value) ? "" : fmt::format("{}", value),
@@ -80,7 +87,7 @@ std::vector<NamedText> mended_files(const Diagnosis& d, const std::filesystem::p
       const auto columns = columns_of(*given, observables, replicates > 0 ? std::optional(k) : std::nullopt);
       const std::string name =
           fmt::format("mended_{}{}.csv", entry.name, replicates > 0 ? fmt::format("_{}", k + 1) : "");
-      files.push_back({name, table_of(columns, given->count)});
+      files.push_back({name, table_of(columns, *given)});
       request.files.push_back(directory / name);
       if (k > 0) continue;
       for (const Column& column : columns) request.columns.emplace_back(column.observable, column.observable);
