@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -50,8 +51,10 @@ std::string verdict_words(const Json& diagnosis) {
                        unlisted ? ", or it is an effect that the catalogue does not list: " + reasons : "");
   }
   if (verdict == "leading") {
-    const std::vector<std::string> all = words(list(diagnosis, "reasons"));
-    return text::capitalised(all.empty() ? "one cause leads" : all.front(), {}) + '.';
+    std::string sentences;
+    for (const std::string& reason : words(list(diagnosis, "reasons")))
+      sentences += (sentences.empty() ? "" : " ") + text::capitalised(reason, {}) + '.';
+    return sentences.empty() ? "One cause leads." : sentences;
   }
   if (verdict == "discovered") {
     const Json& all = list(diagnosis, "reasons");
@@ -63,8 +66,9 @@ std::string verdict_words(const Json& diagnosis) {
   return verdict;
 }
 
-/// "fibre_dispersion of the material: 0.0165 (0.0135 … 0.0196), probability 0.997".
-std::string cause_words(const Json& cause) {
+/// "fibre_dispersion of the material: 0.0165 (0.0135 … 0.0196), probability 0.997". No probability where it is not
+/// believed, or where the causes leave more than noise: it is that of one among those that were tried.
+std::string cause_words(const Json& cause, bool clean) {
   const Json& amplitude = member(cause, "amplitude");
   const std::string unit = word(amplitude, "unit");
   std::string text = fmt::format("{}{}: {} = {}", word(cause, "id"), place_words(member(cause, "target")),
@@ -72,7 +76,8 @@ std::string cause_words(const Json& cause) {
   if (const Json& interval = member(amplitude, "ci95"); interval.is_array() && interval.size() == 2)
     text += fmt::format(" ({} … {})", figure(interval[0].is_number() ? interval[0].get<double>() : NAN),
                         figure(interval[1].is_number() ? interval[1].get<double>() : NAN));
-  if (member(amplitude, "plausible") == false) text += ", which is implausible";
+  if (member(amplitude, "plausible") == false) return text + ", which is implausible";
+  if (!clean) return text;
   return text + fmt::format(", probability {}", share(number(cause, "probability")));
 }
 
@@ -148,7 +153,8 @@ void add_verdict(Page& page, const Folder& folder) {
   std::vector<std::string> where, causes;
   for (const Json& misfit : list(diagnosis, "misfit"))
     where.push_back(fmt::format("{}, {}: {}", word(misfit, "test"), word(misfit, "channel"), word(misfit, "where")));
-  for (const Json& cause : list(diagnosis, "causes")) causes.push_back(cause_words(cause));
+  const bool clean = word(diagnosis, "remainder") != "not_clean";
+  for (const Json& cause : list(diagnosis, "causes")) causes.push_back(cause_words(cause, clean));
   const double p = number(diagnosis, "p_value");
   std::vector<std::string> sure{fmt::format("Noise alone would look like this with {}. Below {} counts as detected.",
                                             chance(p, member(diagnosis, "p_value_is_bound") == true),
@@ -169,8 +175,11 @@ void add_verdict(Page& page, const Folder& folder) {
                    {causes.size() > 1 ? "Causes" : "Cause", causes},
                    {"Gain", one(gain_words(diagnosis))},
                    {"What to do next", next_words(diagnosis)}});
+  std::set<std::string> explained;  // of several of a kind, the first stands for all
   for (const Json& cause : list(diagnosis, "causes"))
-    if (const std::string text = word(cause, "explanation"); !text.empty()) page.paragraph(text);
+    if (const std::string text = word(cause, "explanation");
+        !text.empty() && explained.insert(word(cause, "id")).second)
+      page.paragraph(text);
 }
 
 }  // namespace tunica::report
