@@ -147,7 +147,6 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
   std::string text = fmt::format("mainly {}{}{}{}: it takes {} of the misfit", first.term ? "the term " : "", first.id,
                                  like, place_of(first.place), percent(share_of(budget, first)));
   if (first.belief == Belief::flagged) text += ", with an amplitude somewhat beyond what is plausible";
-  if (!forms.empty()) text += fmt::format("; its form is open ({} alone)", fmt::join(forms, ", "));
   std::vector<std::string> others;
   std::size_t own = 0;
   for (const Step& step : budget.steps) {
@@ -156,8 +155,10 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
     else
       others.push_back(step.id);
   }
+  if (own > 1) text += fmt::format(" in {} steps", own);
+  if (own <= 1 && !others.empty()) text += fmt::format(" and leaves {} of the range", percent(first.rest.rms));
+  if (!forms.empty()) text += fmt::format("; its form is open ({} alone)", fmt::join(forms, ", "));
   if (others.empty()) return text + "; " + remains(budget.rest(), budget.tolerance);
-  if (own <= 1) text += fmt::format(" and leaves {} of the range", percent(first.rest.rms));
   return fmt::format("{}; with {}, {}", text, fmt::join(others, " and "), remains(budget.rest(), budget.tolerance));
 }
 
