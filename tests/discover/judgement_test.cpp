@@ -171,7 +171,8 @@ TEST_F(Judging, ANameOfTheCatalogueStandsForATermWhereItIsAhead) {
   EXPECT_EQ(judge(found).verdict, Verdict::discovered);
 }
 
-/// Where noise was estimated and terms take nine tenths, a rest that is not noise is said beside them; else it is all.
+/// Where noise was estimated and terms take nine tenths, a rest that twice the noise explains is said beside them; else
+/// it is all.
 TEST_F(Judging, ARestThatIsNotNoiseIsSaid) {
   found.p_after = 0.001;
   Judgement judgement = judge(found);
@@ -187,6 +188,11 @@ TEST_F(Judging, ARestThatIsNotNoiseIsSaid) {
   found.chi2_after = 121;  // 89.5 %
   EXPECT_EQ(judge(found).verdict, Verdict::unknown);
   found.chi2_after = 119;
+  EXPECT_EQ(judge(found).verdict, Verdict::discovered);
+  found.chi2_before = 1e5;
+  found.chi2_after = 4 * found.rows + 1;
+  EXPECT_EQ(judge(found).verdict, Verdict::unknown);
+  found.chi2_after = 4 * found.rows - 1;
   EXPECT_EQ(judge(found).verdict, Verdict::discovered);
 }
 
