@@ -90,12 +90,28 @@ TEST(SearchForSets, TriesEachOnce) {
   for (const char* name : {"a", "b", "c", "d", "e"}) kinds.push_back(terms.kind(name, name));
   const CommonFitter fitter({terms.fitter.get()}, {kinds}, true);
   terms.forget();
+  (void)fitter.most(fitter.root(), kinds[0]);
   (void)fitter.grown(fitter.root(), kinds[0], -INFINITY);
   const int once = terms.made().begin()->second;
   terms.forget();
   EXPECT_EQ(searched(terms, kinds, {3}).size(), 5U + 10 + 10);
   for (const auto& [names, times] : terms.made()) EXPECT_EQ(times, once) << ::testing::PrintToString(names);
   EXPECT_EQ(terms.made().size(), 5U + 10 + 10);
+}
+
+/// Of 28 pairs 21 take much. What h promises beside one of these is less than the sixteenth best pair says.
+TEST(SearchForSets, FitsNothingThatCannotBeAmongTheBest) {
+  std::vector<double> levels(7, 10);
+  levels.push_back(level_of(8));
+  const MadeUpTerms terms(levels, laws_of_blocks(8));
+  Kinds kinds;
+  for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "h"}) kinds.push_back(terms.kind(name, name));
+  const auto sets = names_of(searched(terms, kinds, {2}));
+  EXPECT_THAT(sets, Contains(Names{"h"}));
+  EXPECT_THAT(sets, Contains(Names{"f", "g"}));
+  EXPECT_THAT(sets, Not(Contains(Names{"a", "h"})));
+  EXPECT_EQ(terms.made().at({"a", "h"}), 1) << "its promise";
+  EXPECT_EQ(terms.made().at({"f", "g"}), 2) << "its promise and its fit";
 }
 
 /// a1 … a4 and b1 … b4, each less likely than the one before.
@@ -285,6 +301,7 @@ TEST(SearchForSets, HaveOneLawForAllOfAnInvariant) {
                     terms.kind("q", "b", 0, "I1", "p"), terms.kind("x", "c"),
                     terms.kind("absent", "absent", 0, "I1", "p")};
   const CommonFitter fitter({terms.fitter.get()}, {kinds}, true);
+  (void)fitter.most(fitter.root(), kinds[1]);
   (void)fitter.grown(fitter.root(), kinds[1], -INFINITY);
   const int once = terms.made().at({"p"});
   terms.forget();
@@ -297,6 +314,20 @@ TEST(SearchForSets, HaveOneLawForAllOfAnInvariant) {
       EXPECT_LE(times, 2 * once) << ::testing::PrintToString(names) << ": grown, and put in place of others";
     }
   EXPECT_EQ(terms.made().at({"p", "q"}), once);
+}
+
+/// Sets of the same rows with another noise are fitted again, from where they ended, and grow on while more is left.
+TEST(SearchForSets, BeginsWithTheSetsOfAnotherNoise) {
+  const MadeUpTerms terms(std::vector<double>(4, 2), laws_of_blocks(4));
+  Kinds kinds;
+  for (const char* name : {"a", "b", "c", "d"}) kinds.push_back(terms.kind(name, name));
+  const auto all = searched(terms, kinds, {3});
+  const auto again = searched(terms, kinds, {3, 0, &all});
+  EXPECT_EQ(names_of(again), names_of(all));
+  EXPECT_NEAR(again.front().log_evidence, all.front().log_evidence, 1e-6);
+  const std::vector<CommonFit> singles = searched(terms, kinds, {1});
+  EXPECT_EQ(of_size(2, searched(terms, kinds, {2, 0, &singles})).size(), 6U);
+  EXPECT_TRUE(of_size(2, searched(terms, kinds, {2, 0, &singles}, always)).empty()) << "nothing is left";
 }
 
 /// It takes the place of others in the best six sets.

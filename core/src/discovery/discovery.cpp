@@ -27,12 +27,12 @@ struct Searched {
 
 /// All sets of closed laws, and of curves where these say more.
 std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Request& request, const Fitter& fitter,
-                                  const std::vector<KindPointer>& kinds) {
+                                  const std::vector<KindPointer>& kinds, const std::vector<CommonFit>& before) {
   constexpr double worth_a_curve = 3;
   const auto is_clean = [&](const SetFit& fit) { return diagnosis::is_clean(p_of_rest(analysis, fit.fit)); };
   const CommonFitter one({&fitter}, {kinds}, request.from_nothing);
   std::vector<SetFit> sets;
-  for (CommonFit& fit : search(one, {request.term_limit(), request.most_parameters},
+  for (CommonFit& fit : search(one, {request.term_limit(), request.most_parameters, &before},
                                [&](const CommonFit& set) { return is_clean(set.specimens.front()); }))
     sets.push_back(std::move(fit.specimens.front()));
   const std::vector<std::string>& laws = request.laws;
@@ -48,16 +48,20 @@ std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Req
 }
 
 /// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions.
+/// `before`: sets of a search with another noise.
 Searched search_in(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis, const Request& request,
-                   bool has_directions) {
+                   bool has_directions, const std::vector<SetFit>& before) {
   const diagnosis::Evidence& evidence = analysis.evidence;
   auto subject = std::make_shared<const Subject>(
       Subject{evidence.experiment, evidence.run, request.model, request.from_nothing, inquiry.catalogue});
   inquiry.report("what the data reach", 0.3);
   const States states = reached_states(*subject, evidence.fit.free);
   const Fitter fitter(*subject, evidence);
+  std::vector<CommonFit> sets_before;
+  for (const SetFit& set : before) sets_before.push_back({set.kinds, {set}, set.log_evidence});
   const auto over = [&](bool directions) {
-    return searched_over(analysis, request, fitter, scaled_kinds(fitter, kinds_of(request, states, directions)));
+    return searched_over(analysis, request, fitter, scaled_kinds(fitter, kinds_of(request, states, directions)),
+                         sets_before);
   };
   inquiry.report("terms of the energy", 0.4);
   Searched found{subject, over(has_directions)};
@@ -87,12 +91,12 @@ std::vector<diagnosis::HeldOut> gain_of(const diagnosis::Inquiry& inquiry, const
 
 Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis analysis, const Request& request,
                       bool has_directions) {
-  Searched searched = search_in(inquiry, analysis, request, has_directions);
+  Searched searched = search_in(inquiry, analysis, request, has_directions, {});
   // Noise that the residuals of the base said is asked once more of what the terms leave.
   if (!searched.sets.empty())
     if (auto again = diagnosis::restated(inquiry, analysis, searched.sets.front().fit)) {
       analysis = std::move(*again);
-      searched = search_in(inquiry, analysis, request, has_directions);
+      searched = search_in(inquiry, analysis, request, has_directions, searched.sets);
     }
   Discovery found{request, std::move(analysis), searched.subject};
   found.chi2_before = found.analysis.evidence.fit.chi2;

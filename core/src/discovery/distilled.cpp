@@ -39,7 +39,7 @@ Closest closest_to(const Subject& subject, const Kind& kind, const std::vector<d
 
 }  // namespace
 
-std::optional<SetFit> Fitter::distilled(const SetFit& from, const KindPointer& law) const {
+std::optional<SetFit> Fitter::distilled(const SetFit& from, const KindPointer& law, double worth) const {
   const std::string words = law->invariant_words();
   std::vector<double> x, slopes(grid_points, 0.0);
   for (std::size_t i = 0; i < grid_points; ++i)
@@ -71,7 +71,7 @@ std::optional<SetFit> Fitter::distilled(const SetFit& from, const KindPointer& l
     set(term.amplitude, closest.amplitude);
     for (std::size_t s = 0; s < closest.shapes.size(); ++s) set(term.shapes[s], closest.shapes[s]);
   }
-  return fitted(std::move(*found), start);
+  return fitted(std::move(*found), start, worth);
 }
 
 }  // namespace tunica::discovery

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -16,6 +18,8 @@ namespace {
 
 constexpr std::size_t beam = 16;      ///< sets that larger ones grow from
 constexpr std::size_t exchanged = 6;  ///< sets in which terms make room for others
+constexpr std::size_t at_once = 16;   ///< fits between two looks at what is still worth one
+constexpr std::size_t refitted = 48;  ///< sets of an earlier search
 constexpr double tolerance = 10;      ///< of the evidence, behind the best so far
 
 using Key = std::vector<std::string>;
@@ -46,43 +50,49 @@ class Ledger {
  public:
   Ledger(const CommonFitter& fitter, const Search& request) : fitter_(fitter), request_(request) {}
 
-  /// Every set grown by every kind that suits it, if it is new; those that could be fitted.
-  std::vector<CommonFit> grow(const std::vector<CommonFit>& from) {
-    const double best_so_far = all_.empty() ? -INFINITY : sorted().front().log_evidence;
-    struct Job {
-      const CommonFit* from;
-      const KindPointer* kind;
-      Key key;
-    };
-    std::vector<Job> jobs;
-    std::set<Key> planned;
-    for (const CommonFit& smaller : from)
-      for (const KindPointer& kind : fitter_.kinds()) {
-        if (!suits(smaller, *kind)) continue;
-        Key key = key_with(smaller.kinds, *kind);
-        // From the likeliest of the smaller sets, which come first.
-        if (tried_.contains(key) || !planned.insert(key).second) continue;
-        jobs.push_back({&smaller, &kind, std::move(key)});
-      }
-    std::vector<std::optional<CommonFit>> results(jobs.size());
-    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t k) {
-      results[k] = fitter_.grown(*jobs[k].from, *jobs[k].kind, best_so_far - tolerance);
-    });
+  /// Every set grown by every kind that suits it, if it is new; those that could be fitted, likeliest first. What
+  /// promises most is fitted first. What cannot come near the best of the smaller sets is not fitted, nor what can
+  /// neither be among the `kept` best of these nor come near the best of them.
+  std::vector<CommonFit> grow(const std::vector<CommonFit>& from, std::size_t kept) {
+    std::vector<Job> jobs = jobs_of(from);
+    const double smaller = all_.empty() ? -INFINITY : sorted().front().log_evidence;
+    double best_so_far = smaller;
     std::map<Key, CommonFit> best;
-    for (std::size_t k = 0; k < jobs.size(); ++k) {
-      tried_.insert(jobs[k].key);
-      if (!results[k]) continue;
-      const auto found = best.find(jobs[k].key);
-      if (found == best.end())
-        best.emplace(jobs[k].key, std::move(*results[k]));
-      else if (likelier(*results[k], found->second))
-        found->second = std::move(*results[k]);
+    for (std::size_t first = 0; first < jobs.size(); first += at_once) {
+      const std::size_t last = std::min(first + at_once, jobs.size());
+      const double worth = std::max(smaller - tolerance, std::min(best_so_far - tolerance, lowest_of(best, kept)));
+      std::vector<std::optional<CommonFit>> results(last - first);
+      tbb::parallel_for(first, last, [&](std::size_t k) {
+        if (jobs[k].most >= worth) results[k - first] = fitter_.grown(*jobs[k].from, *jobs[k].kind, worth);
+      });
+      for (std::size_t k = first; k < last; ++k) {
+        auto& result = results[k - first];
+        if (!result) continue;
+        best_so_far = std::max(best_so_far, result->log_evidence);
+        const auto found = best.find(jobs[k].key);
+        if (found == best.end())
+          best.emplace(jobs[k].key, std::move(*result));
+        else if (likelier(*result, found->second))
+          found->second = std::move(*result);
+      }
     }
     std::vector<CommonFit> grown;
     for (auto& [key, fit] : best) grown.push_back(fit);
     std::stable_sort(grown.begin(), grown.end(), likelier);
     for (auto& [key, fit] : best) all_.emplace(key, std::move(fit));
     return grown;
+  }
+
+  /// Sets that were fitted with another noise, likeliest first, as far as a larger set may grow from them.
+  void refit(const std::vector<CommonFit>& before) {
+    std::vector<std::optional<CommonFit>> results(std::min(before.size(), refitted));
+    tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t k) { results[k] = fitter_.refitted(before[k]); });
+    for (auto& result : results)
+      if (result) {
+        Key key = key_of(result->kinds);
+        tried_.insert(key);
+        all_.emplace(std::move(key), std::move(*result));
+      }
   }
 
   /// The best sets with each of their terms taken out, where that set was fitted.
@@ -124,13 +134,14 @@ class Ledger {
   /// The best sets with one law in the place of all terms of an invariant. Two laws may add up to a third, and no
   /// smaller set leads from one to the other. Whether anything was new.
   bool try_single_laws() {
-    struct Job {
+    struct Substitute {
       CommonFit from;
       KindPointer law;
       Key key;
     };
-    std::vector<Job> jobs;
+    std::vector<Substitute> jobs;
     std::vector<CommonFit> best = sorted();
+    const double worth = best.empty() ? -INFINITY : best.front().log_evidence - tolerance;
     if (best.size() > exchanged) best.resize(exchanged);
     for (const CommonFit& fit : best)
       for (const KindPointer& law : fitter_.kinds()) {
@@ -144,11 +155,28 @@ class Ledger {
       }
     std::vector<std::optional<CommonFit>> results(jobs.size());
     tbb::parallel_for(std::size_t{0}, jobs.size(),
-                      [&](std::size_t k) { results[k] = fitter_.distilled(jobs[k].from, jobs[k].law); });
+                      [&](std::size_t k) { results[k] = fitter_.distilled(jobs[k].from, jobs[k].law, worth); });
     bool found = false;
     for (std::size_t k = 0; k < jobs.size(); ++k)
       if (results[k]) found = all_.emplace(jobs[k].key, std::move(*results[k])).second || found;
     return found;
+  }
+
+  /// The best sets with fewer terms.
+  [[nodiscard]] std::vector<CommonFit> best_below(std::size_t terms) const {
+    std::vector<CommonFit> sets = sorted();
+    std::erase_if(sets, [&](const CommonFit& set) { return set.kinds.size() >= terms; });
+    sets.resize(std::min(sets.size(), beam), fitter_.root());
+    return sets;
+  }
+
+  /// In the best sets each term makes room for every other kind.
+  void exchange() {
+    for (int round = 0; round < 2; ++round) {
+      try_linear_laws();
+      const bool simpler = try_single_laws();
+      if (grow(with_room(), 0).empty() && !simpler) break;
+    }
   }
 
   [[nodiscard]] std::vector<CommonFit> sorted() const {
@@ -159,6 +187,40 @@ class Ledger {
   }
 
  private:
+  struct Job {
+    const CommonFit* from;
+    const KindPointer* kind;
+    Key key;
+    double most;  ///< that the evidence can come to
+  };
+
+  /// One for each new set, from the likeliest of the smaller ones, which come first; largest promise first.
+  std::vector<Job> jobs_of(const std::vector<CommonFit>& from) {
+    std::vector<Job> jobs;
+    for (const CommonFit& smaller : from)
+      for (const KindPointer& kind : fitter_.kinds()) {
+        if (!suits(smaller, *kind)) continue;
+        Key key = key_with(smaller.kinds, *kind);
+        if (tried_.insert(key).second) jobs.push_back({&smaller, &kind, std::move(key), 0});
+      }
+    tbb::parallel_for(std::size_t{0}, jobs.size(),
+                      [&](std::size_t k) { jobs[k].most = fitter_.most(*jobs[k].from, *jobs[k].kind); });
+    std::erase_if(jobs, [](const Job& job) { return job.most == -INFINITY; });
+    std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.most > b.most; });
+    return jobs;
+  }
+
+  /// The evidence of the last of the `kept` best; −∞: there are fewer.
+  static double lowest_of(const std::map<Key, CommonFit>& sets, std::size_t kept) {
+    if (sets.size() < kept) return -INFINITY;
+    if (kept == 0) return INFINITY;
+    std::vector<double> values;
+    for (const auto& [key, fit] : sets) values.push_back(fit.log_evidence);
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(kept - 1), values.end(),
+                     std::greater<>());
+    return values[kept - 1];
+  }
+
   /// Fibres alone hold nothing together. A second term of the same kind says something for powers of the stretches
   /// only.
   [[nodiscard]] bool suits(const CommonFit& from, const Kind& kind) const {
@@ -181,22 +243,25 @@ class Ledger {
 std::vector<CommonFit> search(const CommonFitter& fitter, const Search& request, const IsClean& is_clean) {
   constexpr std::size_t exhaustive = 2;
   Ledger ledger(fitter, request);
+  if (request.before) ledger.refit(*request.before);
+  // What was searched with another noise is not searched again, but sets grow further that leave more than this noise.
+  if (const std::vector<CommonFit> known = ledger.sorted(); !known.empty()) {
+    if (!is_clean(known.front())) ledger.grow(ledger.best_below(request.most_terms), beam);
+    ledger.exchange();
+    return ledger.sorted();
+  }
   std::vector<CommonFit> level{fitter.root()};
   for (std::size_t size = 1; size <= request.most_terms && !level.empty(); ++size) {
-    std::vector<CommonFit> grown = ledger.grow(level);
+    const std::size_t most = size < exhaustive ? std::numeric_limits<std::size_t>::max() : beam;
+    std::vector<CommonFit> grown = ledger.grow(level, most);
     if (grown.empty()) break;
     const CommonFit best = ledger.sorted().front();
     // Nothing is left to explain, and one term more was not worth its price.
     if (size >= exhaustive && best.kinds.size() < size && is_clean(best)) break;
-    const std::size_t keep = size < exhaustive ? grown.size() : std::min(grown.size(), beam);
-    grown.resize(keep);
+    grown.resize(std::min(grown.size(), most));
     level = std::move(grown);
   }
-  for (int round = 0; round < 2; ++round) {
-    ledger.try_linear_laws();
-    const bool simpler = ledger.try_single_laws();
-    if (ledger.grow(ledger.with_room()).empty() && !simpler) break;
-  }
+  ledger.exchange();
   return ledger.sorted();
 }
 

@@ -32,13 +32,6 @@ Eigen::VectorXd residuals_of_nothing(const diagnosis::Evidence& evidence) {
   return evidence.fit.residuals + mirrored;
 }
 
-/// What the linearisation promises of a term: amplitude, fall of |r|², and its signature.
-struct Promise {
-  std::vector<double> shapes;
-  double amplitude = 0, gain = 0;
-  Eigen::VectorXd signature;
-};
-
 /// A term acts in the direction that its amplitude may go.
 Promise promise_of(const Kind& kind, const Projection& absorbed, const Eigen::VectorXd& residuals,
                    Eigen::VectorXd signature) {
@@ -69,6 +62,9 @@ bool has_shape_at_bound(const SetFit& fit) {
 }
 
 double square(double x) { return x * x; }
+
+/// |r|² above which the evidence cannot come to `worth`.
+double wanted_for(double worth) { return std::max(-2 * worth, 0.0); }
 
 }  // namespace
 
@@ -230,31 +226,38 @@ std::optional<SetFit> Fitter::with_linear(const SetFit& from, std::size_t out, c
   return fitted(std::move(*found), start);
 }
 
-std::optional<SetFit> Fitter::fitted(SetFit set, const std::vector<double>& start) const {
+std::optional<SetFit> Fitter::fitted(SetFit set, const std::vector<double>& start, double worth) const {
   const assembly::Assembly& assembly = set.set->assembly();
-  set.fit =
-      diagnosis::least_squares(assembly, diagnosis::all_variables(assembly), start,
-                               *assembly.evaluator().make_workspace(), 60, {.negligible = diagnosis::says_nothing});
+  set.fit = diagnosis::least_squares(assembly, diagnosis::all_variables(assembly), start,
+                                     *assembly.evaluator().make_workspace(), 60,
+                                     {.wanted = wanted_for(worth), .negligible = diagnosis::says_nothing});
   if (!set.fit.status.ok() || !has_support(set) || has_shape_at_bound(set)) return std::nullopt;
   set.log_evidence = log_evidence(set);
   return set;
 }
 
-std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more, double worth) const {
+std::optional<SetFit> Fitter::refitted(const SetFit& before, const std::vector<KindPointer>& kinds) const {
+  if (kinds.empty()) return root_;
+  auto found = bound(kinds);
+  if (!found) return std::nullopt;
+  const std::vector<double> start = start_of(before, *found->set);
+  return fitted(std::move(*found), start);
+}
+
+std::optional<Growth> Fitter::growth(const SetFit& from, const KindPointer& more) const {
   const Kind& kind = *more;
   std::vector<KindPointer> kinds = from.kinds;
   kinds.push_back(more);
   auto larger = bound(std::move(kinds));
   if (!larger) return std::nullopt;
-  SetFit& found = *larger;
   std::size_t own = 0;
-  for (std::size_t k = 0; k < found.kinds.size(); ++k)
-    if (found.kinds[k]->name == kind.name) own = k;
-  const assembly::Assembly& assembly = found.set->assembly();
+  for (std::size_t k = 0; k < larger->kinds.size(); ++k)
+    if (larger->kinds[k]->name == kind.name) own = k;
+  const assembly::Assembly& assembly = larger->set->assembly();
   const auto& parameters = assembly.layout().parameters;
-  const BoundTerm& term = found.set->terms()[own];
+  const BoundTerm& term = larger->set->terms()[own];
   const auto workspace = assembly.evaluator().make_workspace();
-  const std::vector<double> beginning = start_of(from, *found.set);
+  const std::vector<double> beginning = start_of(from, *larger->set);
   const Projection absorbed(diagnosis::interior(from.fit));
 
   std::vector<Promise> promises;
@@ -276,11 +279,25 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
   }
   std::stable_sort(promises.begin(), promises.end(),
                    [](const Promise& a, const Promise& b) { return a.gain > b.gain; });
-  // Beyond what the linearisation promises, a fit at finite amplitude reaches so many times as much.
-  constexpr double optimism = 3, worth_trying = 4;
-  const double missing = 2 * (worth - from.log_evidence) / optimism;
-  if (promises.empty() || promises.front().gain < std::max(worth_trying, missing)) return std::nullopt;
+  constexpr double worth_trying = 4;
+  if (promises.empty() || promises.front().gain < worth_trying) return std::nullopt;
   if (promises.size() > starts) promises.resize(starts);
+  // Beyond what the linearisation promises, a fit at finite amplitude reaches so many times as much.
+  constexpr double optimism = 3;
+  const double most = from.log_evidence + optimism * promises.front().gain / 2;
+  return Growth{std::move(*larger), own, std::move(promises), most};
+}
+
+std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more, double worth) const {
+  auto growth = this->growth(from, more);
+  if (!growth || growth->most < worth) return std::nullopt;
+  SetFit& found = growth->larger;
+  const std::vector<Promise>& promises = growth->promises;
+  const assembly::Assembly& assembly = found.set->assembly();
+  const auto& parameters = assembly.layout().parameters;
+  const BoundTerm& term = found.set->terms()[growth->own];
+  const auto workspace = assembly.evaluator().make_workspace();
+  const std::vector<double> beginning = start_of(from, *found.set);
 
   std::vector<std::size_t> amplitudes = term.heights;
   amplitudes.push_back(term.amplitude);
@@ -315,7 +332,7 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
     }
     share = 0.3;
     Fit fit = diagnosis::least_squares(assembly, variables, at, *workspace, 60,
-                                       {.wanted = std::max(-2 * worth, 0.0), .negligible = diagnosis::says_nothing});
+                                       {.wanted = wanted_for(worth), .negligible = diagnosis::says_nothing});
     if (!fit.status.ok() || (ok && fit.chi2 >= found.fit.chi2)) continue;
     found.fit = std::move(fit);
     ok = true;
@@ -323,7 +340,7 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
   }
   if (!ok || !has_support(found) || has_shape_at_bound(found)) return std::nullopt;
   found.log_evidence = log_evidence(found);
-  return larger;
+  return std::move(found);
 }
 
 }  // namespace tunica::discovery

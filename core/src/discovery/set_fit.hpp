@@ -26,6 +26,21 @@ struct SetFit {
   [[nodiscard]] std::size_t parameter_count() const { return set ? set->assembly().layout().parameters.size() : 0; }
 };
 
+/// What the linearisation promises of a term: amplitude, fall of |r|², and its signature.
+struct Promise {
+  std::vector<double> shapes;
+  double amplitude = 0, gain = 0;
+  Eigen::VectorXd signature;
+};
+
+/// A set with one more kind before it is fitted.
+struct Growth {
+  SetFit larger;
+  std::size_t own;                ///< the place of the kind in the larger set
+  std::vector<Promise> promises;  ///< of its best first shapes, largest gain first
+  double most;                    ///< that ln of the evidence can come to
+};
+
 /// Fits sets of terms and weighs them. Const and thread-safe.
 class Fitter {
  public:
@@ -34,6 +49,10 @@ class Fitter {
 
   /// The base alone, or nothing: what every set grows from.
   [[nodiscard]] const SetFit& root() const { return root_; }
+
+  /// The set with one more kind and what a fit of it can come to; none where the term has nothing to do, and where no
+  /// start can be evaluated.
+  [[nodiscard]] std::optional<Growth> growth(const SetFit& from, const KindPointer& kind) const;
 
   /// The set with one more kind: from where the smaller set ended, with the amplitude that the linearisation promises
   /// at the best of the kind's first shapes. None where the term has nothing to do, where no start can be evaluated,
@@ -45,8 +64,13 @@ class Fitter {
   [[nodiscard]] std::optional<SetFit> with_linear(const SetFit& from, std::size_t out, const KindPointer& linear) const;
 
   /// The set in which one law takes the place of all terms of its invariant: a fit begins where the law comes closest
-  /// to what they add to dψ/dx. None where it cannot be fitted.
-  [[nodiscard]] std::optional<SetFit> distilled(const SetFit& from, const KindPointer& law) const;
+  /// to what they add to dψ/dx. None where it cannot be fitted; a fit ends early where its evidence cannot come to
+  /// `worth`.
+  [[nodiscard]] std::optional<SetFit> distilled(const SetFit& from, const KindPointer& law,
+                                                double worth = -INFINITY) const;
+
+  /// A set that was fitted to the same rows with another noise, from where that ended. None where it cannot be fitted.
+  [[nodiscard]] std::optional<SetFit> refitted(const SetFit& before, const std::vector<KindPointer>& kinds) const;
 
   /// ln of the evidence of a fit with its prior: Laplace's approximation,
   ///
@@ -67,7 +91,8 @@ class Fitter {
   /// Whether every term shows in a tenth of the rows at least: a steep one can fit a single last point.
   [[nodiscard]] bool has_support(const SetFit& fit) const;
   /// Fitted from a start; none where it cannot be evaluated, or where a term has nothing to do or leaves its range.
-  [[nodiscard]] std::optional<SetFit> fitted(SetFit set, const std::vector<double>& start) const;
+  [[nodiscard]] std::optional<SetFit> fitted(SetFit set, const std::vector<double>& start,
+                                             double worth = -INFINITY) const;
 
   const Subject& subject_;
   const diagnosis::Evidence& evidence_;

@@ -144,7 +144,9 @@ class Descent {
   /// Whether the last steps together gained next to nothing: the floor of a valley that data do not close.
   bool creeps(double squares) {
     passed_.push_back(squares);
-    return passed_.size() > creep && passed_[passed_.size() - 1 - creep] - squares < data_.negligible;
+    // Beside a misfit of k times the noise, k² times as much says nothing.
+    const double large = std::max(squares / static_cast<double>(r_.size()), 1.0);
+    return passed_.size() > creep && passed_[passed_.size() - 1 - creep] - squares < data_.negligible * large;
   }
 
   Status evaluate(Eigen::VectorXd& r, Eigen::MatrixXd* J) {

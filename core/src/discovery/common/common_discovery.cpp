@@ -52,7 +52,7 @@ struct Searched {
 
 /// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions.
 Searched search_in(const std::vector<Searching>& specimens, const Request& request, const plugins::Catalogue& catalogue,
-                   bool has_directions) {
+                   bool has_directions, const std::vector<CommonFit>& before) {
   Searched found;
   std::vector<States> states;
   std::vector<const Fitter*> fitters;
@@ -69,7 +69,7 @@ Searched search_in(const std::vector<Searching>& specimens, const Request& reque
     for (std::size_t s = 0; s < specimens.size(); ++s)
       kinds.push_back(scaled_kinds(*found.fitters[s], kinds_of(request, states[s], directions)));
     found.fitter = std::make_unique<const CommonFitter>(fitters, kinds, request.from_nothing);
-    return search(*found.fitter, {request.term_limit(), request.most_parameters},
+    return search(*found.fitter, {request.term_limit(), request.most_parameters, &before},
                   [&](const CommonFit& set) { return is_clean(specimens, set); });
   };
   found.sets = over(has_directions);
@@ -191,10 +191,10 @@ CommonDiscovery discover_together(const std::vector<Member>& members, const Requ
   Searched searched;
   if (search_pays) {
     if (progress) progress("terms of the energy", 0.5);
-    searched = search_in(specimens, request, catalogue, directions);
+    searched = search_in(specimens, request, catalogue, directions, {});
     if (!searched.sets.empty() && restate(specimens, of_analysis, catalogue, searched.sets.front())) {
       found.p_before = p_of_alarms(specimens);
-      searched = search_in(specimens, request, catalogue, directions);
+      searched = search_in(specimens, request, catalogue, directions, searched.sets);
     }
     if (progress) progress("mechanisms as rivals", 0.8);
     if (!request.from_nothing) {

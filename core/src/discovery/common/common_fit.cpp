@@ -2,6 +2,7 @@
 #include "discovery/common/common_fit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -95,6 +96,14 @@ std::optional<CommonFit> CommonFitter::weighed(CommonFit fit) const {
   return fit;
 }
 
+double CommonFitter::most(const CommonFit& from, const KindPointer& kind) const {
+  if (fitters_.size() > 1) return INFINITY;
+  const KindPointer of_specimen = own(0, *kind);
+  if (!of_specimen) return -INFINITY;
+  const auto growth = fitters_.front()->growth(from.specimens.front(), of_specimen);
+  return growth ? growth->most : -INFINITY;
+}
+
 std::optional<CommonFit> CommonFitter::grown(const CommonFit& from, const KindPointer& kind, double worth) const {
   const bool alone = fitters_.size() == 1;
   CommonFit larger{from.kinds, {}};
@@ -112,6 +121,27 @@ std::optional<CommonFit> CommonFitter::grown(const CommonFit& from, const KindPo
       larger.specimens.push_back(smaller);
   }
   return weighed(std::move(larger));
+}
+
+std::optional<CommonFit> CommonFitter::refitted(const CommonFit& before) const {
+  CommonFit again;
+  for (const KindPointer& kind : before.kinds) {
+    const auto here = std::find_if(kinds_.begin(), kinds_.end(),
+                                   [&](const KindPointer& one) { return one->name == kind->name; });
+    if (here == kinds_.end()) return std::nullopt;
+    again.kinds.push_back(*here);
+  }
+  for (std::size_t s = 0; s < fitters_.size(); ++s) {
+    std::vector<KindPointer> kinds;
+    for (const KindPointer& kind : before.specimens[s].kinds) {
+      kinds.push_back(own(s, *kind));
+      if (!kinds.back()) return std::nullopt;
+    }
+    auto fit = fitters_[s]->refitted(before.specimens[s], kinds);
+    if (!fit) return std::nullopt;
+    again.specimens.push_back(std::move(*fit));
+  }
+  return weighed(std::move(again));
 }
 
 std::optional<CommonFit> CommonFitter::with_linear(const CommonFit& from, std::size_t out,
@@ -137,7 +167,8 @@ std::optional<CommonFit> CommonFitter::with_linear(const CommonFit& from, std::s
   return weighed(std::move(simpler));
 }
 
-std::optional<CommonFit> CommonFitter::distilled(const CommonFit& from, const KindPointer& law) const {
+std::optional<CommonFit> CommonFitter::distilled(const CommonFit& from, const KindPointer& law,
+                                                 double worth) const {
   const auto same = [&](const KindPointer& kind) { return kind->invariant_words() == law->invariant_words(); };
   CommonFit simpler{from.kinds, {}};
   std::erase_if(simpler.kinds, same);
@@ -150,7 +181,7 @@ std::optional<CommonFit> CommonFitter::distilled(const CommonFit& from, const Ki
     }
     const KindPointer of_specimen = own(s, *law);
     if (!of_specimen) return std::nullopt;
-    auto with = fitters_[s]->distilled(fit, of_specimen);
+    auto with = fitters_[s]->distilled(fit, of_specimen, fitters_.size() == 1 ? worth : -INFINITY);
     if (!with) return std::nullopt;
     simpler.specimens.push_back(std::move(*with));
   }
