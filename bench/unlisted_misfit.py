@@ -134,6 +134,12 @@ def leads(d: typing.Dict[str, typing.Any]) -> typing.List[str]:
     return [step["id"] for step in d["budget"]["steps"]] if d.get("verdict") == "discovered" else []
 
 
+def acts_in(one: typing.Dict[str, typing.Any], test: str) -> bool:
+    """In this test and no other."""
+    target = one["target"] or {}
+    return bool((target.get("tests") or [target.get("test")]) == [test])
+
+
 def is_right(said: str, case: Hidden) -> bool:
     if case.test:
         return said == case.cause
@@ -146,7 +152,7 @@ def judged(d: typing.Dict[str, typing.Any], case: Hidden) -> str:
     if not said:
         return "withheld"
     good = [is_right(one, case) for one in said]
-    if d["verdict"] == "leading" and case.test and d["budget"]["lead"]["target"].get("tests") != [case.test]:
+    if d["verdict"] == "leading" and case.test and not acts_in(d["budget"]["lead"], case.test):
         return "wrong"
     return "right" if all(good) or (good[0] and d["verdict"] in ("named", "discovered")) else "tie" if any(good) else "wrong"
 
@@ -156,7 +162,7 @@ def share_of(d: typing.Dict[str, typing.Any], case: Hidden) -> typing.Optional[f
     budget = d["budget"]
     same = [one for one in budget.get("alone", []) + budget["steps"][:1]
             if is_right(one.get("acts_like", one["id"]), case) or is_right(one["id"], case)]
-    same = [one for one in same if not case.test or one["target"].get("tests") == [case.test]]
+    same = [one for one in same if not case.test or acts_in(one, case.test)]
     return max((one["share"] for one in same), default=None)
 
 

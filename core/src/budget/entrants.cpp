@@ -264,9 +264,11 @@ Entrants entrants_of(Field& field) {
   tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t k) {
     auto mixture = field.mixer.grown(base, *chosen[k]);
     if (!mixture) return;
+    // All rows of a channel at once are an offset, and no rows by themselves.
+    const bool of_row = chosen[k]->member.mechanism && chosen[k]->member.mechanism->place.row;
     for (const diagnosis::Refit& refit : field.known)
       if (refit.additions.size() == 1 && refit.additions.front().id == chosen[k]->member.key() &&
-          refit.fit.chi2 < mixture->fit.chi2 && refit.fit.jacobian.cols() == mixture->fit.jacobian.cols())
+          refit.additions.front().place.row.has_value() == of_row && refit.fit.chi2 < mixture->fit.chi2 && refit.fit.jacobian.cols() == mixture->fit.jacobian.cols())
         mixture = field.mixer.mixture_of(refit);
     Entrant entrant;
     const Member& member = mixture->members.front();
