@@ -163,7 +163,7 @@ TEST(Combination, HoldsTheMisfitAgainstWhatSpecimensDifferBy) {
   const CohortSize size = combine(of_straight_lines({8, 10, 12})).size;
   // σ = 2 kPa at the end and falls to 0: √(Σ(k/8)²/9) · 2/10.
   EXPECT_NEAR(size.tolerance.share, 0.2 * std::sqrt(204.0 / 64 / 9), 1e-12);
-  EXPECT_EQ(size.tolerance.origin, budget::Tolerance::Origin::cohort);
+  EXPECT_EQ(size.tolerance.origin, diagnosis::Tolerance::Origin::cohort);
   EXPECT_NEAR(size.rms, 0.03, 1e-12);
   EXPECT_EQ(size.within, 3u);
 }
@@ -174,11 +174,11 @@ TEST(Combination, HoldsTheMisfitAgainstWhatIsStatedOrTwoPerCentWhereTwoSpecimens
   auto stated = of_straight_lines({8, 10, 12});
   for (SpecimenEvidence& one : stated) {
     one.tolerance = 0.05;
-    one.tolerance_origin = budget::Tolerance::Origin::stated;
+    one.tolerance_origin = diagnosis::Tolerance::Origin::stated;
   }
   const CohortSize size = combine(stated).size;
   EXPECT_NEAR(size.tolerance.share, 0.05, 1e-12);
-  EXPECT_EQ(size.tolerance.origin, budget::Tolerance::Origin::stated);
+  EXPECT_EQ(size.tolerance.origin, diagnosis::Tolerance::Origin::stated);
 }
 
 TEST(Combination, SeesWhatSpecimensDifferByOnlyWhereAllHaveBeen) {

@@ -162,7 +162,7 @@ TEST(CreepingFits, EndWhenSixStepsGainNextToNothingTogether) {
     for (const double gain : gains) script.push_back({0.1, std::sqrt(std::pow(script.back().m, 2) - gain / 4)});
     script.push_back({torn});
     DataVariant data;
-    data.negligible = negligible;
+    data.negligible = negligible / 100;  // |r|² is 400 in four rows
     return Scripted(script, 1).fit(9, 20, data).evaluations;
   };
   const std::vector<double> steady(15, 0.15), late{5, 5, 5, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1};

@@ -6,11 +6,14 @@
 #include <vector>
 
 #include "budget/steps.hpp"
-#include "budget/tolerance.hpp"
+#include "diagnosis/evidence/tolerance.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "discovery/discovery.hpp"
 
 namespace tunica::budget {
+
+using diagnosis::ChannelSize;
+using diagnosis::Tolerance;
 
 /// A cause as the only explanation, without its fit.
 struct Contender {

@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "budget/misfit_size.hpp"
+#include "diagnosis/evidence/misfit_size.hpp"
 #include "budget/mixture.hpp"
 #include "budget/unlisted.hpp"
 
 namespace tunica::budget {
+
+using diagnosis::MisfitSize;
+using diagnosis::Size;
 
 /// What a search over mechanisms and terms works with.
 struct Field {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "budget/misfit_size.hpp"
+#include "diagnosis/evidence/misfit_size.hpp"
 #include "diagnosis/evidence/projection.hpp"
 #include "diagnosis/evidence/smooth_columns.hpp"
 #include "diagnosis/naming/singles.hpp"
@@ -28,7 +28,7 @@ UnlistedMisfit::UnlistedMisfit(const diagnosis::Evidence& evidence, unsigned deg
   const Eigen::Index rows = evidence.fit.residuals.size();
   const diagnosis::SmoothShapes shapes = diagnosis::smooth_shapes(evidence.curves, rows, degree);
   columns_ = shapes.columns;
-  const Eigen::VectorXd ratios = MisfitSize(evidence).ranges_over_sigma();
+  const Eigen::VectorXd ratios = diagnosis::MisfitSize(evidence).ranges_over_sigma();
   for (Eigen::Index k = 0; k < columns_.cols(); ++k) columns_.col(k) = columns_.col(k).cwiseProduct(ratios) / noise;
   basis_ = diagnosis::basis(columns_, 1e-8);
   const Eigen::MatrixXd squares = columns_.transpose() * columns_;

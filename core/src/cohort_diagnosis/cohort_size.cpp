@@ -21,13 +21,13 @@ CohortSize size_of(std::span<const SpecimenEvidence* const> specimens) {
   found.rms = together(specimens, &SpecimenEvidence::rms);
   found.tolerance.share = together(specimens, &SpecimenEvidence::tolerance);
   // Where specimens know it in different ways, the one that says least is that of the cohort.
-  found.tolerance.origin = budget::Tolerance::Origin::stated;
+  found.tolerance.origin = diagnosis::Tolerance::Origin::stated;
   for (const SpecimenEvidence* one : specimens)
     found.tolerance.origin = std::max(found.tolerance.origin, one->tolerance_origin);
-  if (found.tolerance.origin == budget::Tolerance::Origin::standard) {
+  if (found.tolerance.origin == diagnosis::Tolerance::Origin::standard) {
     std::vector<const std::vector<Outline>*> outlines;
     for (const SpecimenEvidence* one : specimens) outlines.push_back(&one->outlines);
-    if (const auto spread = spread_between(outlines)) found.tolerance = {*spread, budget::Tolerance::Origin::cohort};
+    if (const auto spread = spread_between(outlines)) found.tolerance = {*spread, diagnosis::Tolerance::Origin::cohort};
   }
   found.within = static_cast<std::size_t>(std::count_if(
       specimens.begin(), specimens.end(), [&](const auto* one) { return one->rms_upper <= found.tolerance.share; }));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "budget/tolerance.hpp"
+#include "diagnosis/evidence/tolerance.hpp"
 #include "cohort_diagnosis/profile.hpp"
 
 namespace tunica::cohort_diagnosis {
@@ -96,7 +96,7 @@ struct CohortReason {
 /// How far the model misses the specimens beyond noise, as a share of the range.
 struct CohortSize {
   double rms = 0;  ///< squares averaged over specimens
-  budget::Tolerance tolerance;
+  diagnosis::Tolerance tolerance;
   std::size_t within = 0;  ///< specimens that it is reached in, by the upper bound
 };
 

@@ -84,10 +84,10 @@ Profile profile_from(const Json& json) {
   return profile;
 }
 
-budget::Tolerance::Origin origin_from(const std::string& code) {
-  using Origin = budget::Tolerance::Origin;
+diagnosis::Tolerance::Origin origin_from(const std::string& code) {
+  using Origin = diagnosis::Tolerance::Origin;
   for (const Origin one : {Origin::stated, Origin::repeats, Origin::standard})
-    if (code == budget::code_of(one)) return one;
+    if (code == diagnosis::code_of(one)) return one;
   throw NoRecord("an origin of a tolerance that there is not");
 }
 
@@ -124,7 +124,7 @@ Json to_json(const SpecimenEvidence& specimen) {
             {"rms", specimen.rms},
             {"rms_upper", specimen.rms_upper},
             {"tolerance", specimen.tolerance},
-            {"tolerance_origin", budget::code_of(specimen.tolerance_origin)},
+            {"tolerance_origin", diagnosis::code_of(specimen.tolerance_origin)},
             {"outlines", Json::array()},
             {"profiles", Json::array()},
             {"shapes", specimen.shapes},

@@ -75,7 +75,7 @@ std::optional<double> relative_variance(const std::vector<const Outline*>& curve
 
 std::vector<Outline> outlines_of(const diagnosis::Evidence& evidence) {
   std::vector<Outline> outlines;
-  for (const budget::ChannelSize& size : budget::MisfitSize(evidence).channels(evidence.fit)) {
+  for (const diagnosis::ChannelSize& size : diagnosis::MisfitSize(evidence).channels(evidence.fit)) {
     Outline one{size.test, size.channel, size.rows, size.range, size.of_range().rms, 0, 0, {}};
     for (const auto& view : evidence.base->layout().channels)
       if (view.test == one.test && view.observable == one.channel) {

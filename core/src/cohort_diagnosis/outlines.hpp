@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "budget/tolerance.hpp"
+#include "diagnosis/evidence/tolerance.hpp"
 
 namespace tunica::cohort_diagnosis {
 

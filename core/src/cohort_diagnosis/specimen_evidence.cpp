@@ -331,8 +331,8 @@ void own_answer(const diagnosis::Diagnosis& diagnosis, SpecimenEvidence& found) 
   found.rows = static_cast<std::size_t>(diagnosis.analysis.evidence.fit.residuals.size());
   found.squares = diagnosis.analysis.evidence.fit.chi2;
   const diagnosis::Evidence& evidence = diagnosis.analysis.evidence;
-  const budget::Size size = budget::MisfitSize(evidence).of(evidence.fit);
-  const budget::Tolerance tolerance = budget::tolerance_of(diagnosis.request, evidence);
+  const diagnosis::Size size = diagnosis::MisfitSize(evidence).of(evidence.fit);
+  const diagnosis::Tolerance tolerance = diagnosis::tolerance_of(diagnosis.request, evidence);
   found.rms = size.rms;
   found.rms_upper = size.upper;
   found.tolerance = tolerance.share;

@@ -52,7 +52,7 @@ struct SpecimenEvidence {
   double squares = 0;             ///< |r|² of the base fit
   double rms = 0, rms_upper = 0;  ///< of its misfit beyond noise, as a share of the range; the bound has 95 %
   double tolerance = 0.02;        ///< what the specimen's own file says of it
-  budget::Tolerance::Origin tolerance_origin = budget::Tolerance::Origin::standard;
+  diagnosis::Tolerance::Origin tolerance_origin = diagnosis::Tolerance::Origin::standard;
   std::vector<Outline> outlines;
   std::vector<Profile> profiles;
   std::vector<double> shapes;  ///< b = B̃ᵀr of smooth shapes; their vectors stand behind those of the profiles

@@ -60,7 +60,7 @@ Json to_json(const CohortVerdict& verdict) {
             {"size",
              {{"rms", verdict.size.rms},
               {"tolerance", verdict.size.tolerance.share},
-              {"tolerance_origin", budget::code_of(verdict.size.tolerance.origin)},
+              {"tolerance_origin", diagnosis::code_of(verdict.size.tolerance.origin)},
               {"within", verdict.size.within}}},
             {"p_rest", verdict.p_rest},
             {"explanations", Json::array()},

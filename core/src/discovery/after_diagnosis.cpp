@@ -24,6 +24,7 @@ std::optional<Discovery> after(const diagnosis::Diagnosis& d, const experiment::
   request.model = d.request.model;
   request.from_nothing = false;
   request.alpha = d.request.alpha;
+  request.tolerance = d.request.tolerance;
   request.quick = d.request.quick;
   request.seed = d.request.seed;
   const experiment::Experiment measured = experiment::measured_only(experiment);

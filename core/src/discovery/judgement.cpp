@@ -19,7 +19,6 @@ namespace {
 using diagnosis::Verdict;
 
 constexpr double most_of_it = 0.9;     ///< of the misfit, that terms have to take where the rest is no noise
-constexpr double too_small = 2;        ///< times: an estimate of σ may be as much below it
 constexpr double clear_of_rig = 0.25;  ///< probability of the rig above which nothing is said to be discovered
 constexpr double one_invariant = 0.75;
 constexpr double worth_a_name = 3;  ///< of the evidence of a specimen, by which a mechanism has to be ahead of terms
@@ -210,9 +209,8 @@ Judgement judge(const Findings& found) {
           ? fmt::format("The energy is {}; |r|² is {:.1f} for {:.0f} rows.", words, found.chi2_after, found.rows)
           : fmt::format("The energy lacks {}; it takes {:.0f} % of the misfit beyond noise, |r|² {:.1f} → {:.1f}.",
                         words, 100 * share, found.chi2_before, found.chi2_after);
-  // An estimate of the noise may be too small, and what is left is noise all the same.
-  const bool may_be_noise = found.noise_estimated && found.chi2_after <= too_small * too_small * found.rows;
-  if (!clean && (share < most_of_it || !may_be_noise)) {
+  // An estimate of the noise may be too small. What is left is then no noise, and matters to nobody.
+  if (!clean && (share < most_of_it || !found.noise_estimated || !found.rest_is_small)) {
     because(ReasonKind::not_clean,
             fmt::format("The best terms, {}, take {:.0f} % of the misfit beyond noise, and the rest is not noise.",
                         words, 100 * share));

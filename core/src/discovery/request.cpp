@@ -6,7 +6,9 @@ namespace tunica::discovery {
 Request request_of(const experiment::Experiment& experiment) {
   Request request;
   request.seed = experiment.seed;
-  request.model = diagnosis::request_of(experiment).model;
+  const diagnosis::Request of_diagnosis = diagnosis::request_of(experiment);
+  request.model = of_diagnosis.model;
+  request.tolerance = of_diagnosis.tolerance;
   if (!experiment.discovery) return request;
   const experiment::DiscoveryEntry& entry = *experiment.discovery;
   request.model = entry.model.value_or(request.model);
@@ -23,6 +25,7 @@ diagnosis::Request analysis_request(const Request& request) {
   diagnosis::Request of_analysis;
   of_analysis.model = request.model;
   of_analysis.alpha = request.alpha;
+  of_analysis.tolerance = request.tolerance;
   of_analysis.quick = request.quick;
   of_analysis.seed = request.seed;
   return of_analysis;

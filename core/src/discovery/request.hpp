@@ -19,6 +19,8 @@ struct Request {
   std::size_t most_terms = 0;           ///< 0 = three beside a base, four from nothing
   std::size_t most_parameters = 0;      ///< that the terms may have together; 0 = as many as it takes
   double alpha = 0.05;                  ///< false alarms that are accepted
+  /// What is not worth caring about, as that of a diagnosis.
+  std::vector<std::pair<std::string, std::string>> tolerance = {};
   bool quick = false;                   ///< linear bootstrap of the alarm only
   std::uint64_t seed = 1;
 

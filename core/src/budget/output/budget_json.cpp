@@ -41,7 +41,7 @@ json budget_json(const Budget& budget) {
                           {"probability", one.probability},
                           {"rms", one.rest.rms}});
   json result = {{"tolerance", budget.tolerance.share},
-                 {"tolerance_origin", budget::code_of(budget.tolerance.origin)},
+                 {"tolerance_origin", diagnosis::code_of(budget.tolerance.origin)},
                  {"rms", budget.base.rms},
                  {"rms_upper", budget.base.upper},
                  {"steps", std::move(steps)},

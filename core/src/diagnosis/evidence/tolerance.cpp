@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "budget/tolerance.hpp"
+#include "diagnosis/evidence/tolerance.hpp"
 
 #include <algorithm>
 
-namespace tunica::budget {
+namespace tunica::diagnosis {
 
 const char* code_of(Tolerance::Origin origin) {
   switch (origin) {
@@ -19,8 +19,7 @@ const char* code_of(Tolerance::Origin origin) {
   return "default";
 }
 
-Tolerance tolerance_of(const diagnosis::Request& request, const diagnosis::Evidence& evidence) {
-  using diagnosis::NoiseSource;
+Tolerance tolerance_of(const Request& request, const Evidence& evidence) {
   Tolerance tolerance;
   std::vector<double> shares;
   const std::vector<ChannelSize> channels = MisfitSize(evidence).channels(evidence.fit);
@@ -44,4 +43,4 @@ Tolerance tolerance_of(const diagnosis::Request& request, const diagnosis::Evide
   return tolerance;
 }
 
-}  // namespace tunica::budget
+}  // namespace tunica::diagnosis

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "budget/misfit_size.hpp"
+#include "diagnosis/evidence/misfit_size.hpp"
 #include "diagnosis/request.hpp"
 
-namespace tunica::budget {
+namespace tunica::diagnosis {
 
 /// What is no longer worth caring about. It is no noise: real curves scatter by 0.2 % of their range, and no model of a
 /// tissue follows them better than 1–3 %.
@@ -16,6 +16,6 @@ struct Tolerance {
 const char* code_of(Tolerance::Origin origin);
 
 /// As the request states it; else the scatter between the replicates of a curve; else 2 % of the range.
-Tolerance tolerance_of(const diagnosis::Request& request, const diagnosis::Evidence& evidence);
+Tolerance tolerance_of(const Request& request, const Evidence& evidence);
 
-}  // namespace tunica::budget
+}  // namespace tunica::diagnosis

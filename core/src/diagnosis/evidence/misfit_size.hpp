@@ -6,7 +6,7 @@
 #include "assembly/misfit_size.hpp"
 #include "diagnosis/evidence/evidence.hpp"
 
-namespace tunica::budget {
+namespace tunica::diagnosis {
 
 using assembly::ChannelSize;
 using assembly::Size;
@@ -14,20 +14,20 @@ using assembly::Size;
 /// How much the fits of a diagnosis miss, in the rows of its evidence.
 class MisfitSize {
  public:
-  explicit MisfitSize(const diagnosis::Evidence& evidence);
+  explicit MisfitSize(const Evidence& evidence);
 
-  [[nodiscard]] double squares(const diagnosis::Fit& fit) const { return size_.squares(fit.residuals, free(fit)); }
-  [[nodiscard]] Size of(const diagnosis::Fit& fit) const { return size_.of(fit.residuals, free(fit)); }
-  [[nodiscard]] std::vector<ChannelSize> channels(const diagnosis::Fit& fit) const {
+  [[nodiscard]] double squares(const Fit& fit) const { return size_.squares(fit.residuals, free(fit)); }
+  [[nodiscard]] Size of(const Fit& fit) const { return size_.of(fit.residuals, free(fit)); }
+  [[nodiscard]] std::vector<ChannelSize> channels(const Fit& fit) const {
     return size_.channels(fit.residuals, free(fit));
   }
   /// range/σ of each row
   [[nodiscard]] Eigen::VectorXd ranges_over_sigma() const { return size_.ranges_over_sigma(); }
 
  private:
-  static std::size_t free(const diagnosis::Fit& fit);
+  static std::size_t free(const Fit& fit);
 
   assembly::MisfitSize size_;
 };
 
-}  // namespace tunica::budget
+}  // namespace tunica::diagnosis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How large a misfit is, against figures that can be worked out by hand.
-#include "budget/misfit_size.hpp"
+#include "diagnosis/evidence/misfit_size.hpp"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 #include "diagnosis/hand_made.hpp"
 
-namespace tunica::budget {
+namespace tunica::diagnosis {
 namespace {
 
 using ::testing::DoubleNear;
@@ -76,4 +76,4 @@ TEST(MisfitSize, IsAtMostALittleWhereTheResidualsAreNoise) {
 }
 
 }  // namespace
-}  // namespace tunica::budget
+}  // namespace tunica::diagnosis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "budget/tolerance.hpp"
+#include "diagnosis/evidence/tolerance.hpp"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 #include "diagnosis/hand_made.hpp"
 #include "tunica/error.hpp"
 
-namespace tunica::budget {
+namespace tunica::diagnosis {
 namespace {
 
 using ::testing::DoubleNear;
@@ -46,4 +46,4 @@ TEST(Tolerance, IsWhatIsStatedAsAShareOrInTheUnit) {
 }
 
 }  // namespace
-}  // namespace tunica::budget
+}  // namespace tunica::diagnosis
