@@ -80,14 +80,24 @@ Decision decided(const Budget& budget) {
   for (const Contender& one : budget.contenders)
     if (one.belief != Belief::beyond && (top == nullptr || one.share > top->share)) top = &one;
   if (top == nullptr || budget.rough) return decision;
-  // Forms of the energy are many and alike: among them, the evidence decides what is about as good.
-  double likeliest = 0;
+  // What nobody would believe and takes far less is no reason to doubt.
+  double incredible = 0;
   for (const Contender& one : budget.contenders)
-    if (one.in_the_energy && one.share >= top->share - ahead) likeliest = std::max(likeliest, one.probability);
+    if (one.belief == Belief::beyond && one.share < top->share - ahead) incredible += one.probability;
+  const double sure = sure_enough * (1 - incredible);
+  // Among those that take about as much the evidence decides. Forms of the energy are many and alike: it decides among
+  // them where none is sure.
+  double likeliest = 0, likeliest_form = 0;
+  for (const Contender& one : budget.contenders)
+    if (one.share >= top->share - ahead) {
+      if (one.belief != Belief::beyond) likeliest = std::max(likeliest, one.probability);
+      if (one.in_the_energy) likeliest_form = std::max(likeliest_form, one.probability);
+    }
   std::vector<const Contender*> ties;
   for (const Contender& one : budget.contenders) {
     if (one.share > top->share + ahead) return decision;  // its name is not for the runner-up to have
-    const bool unlikely_form = one.in_the_energy && one.probability < unlikely * likeliest;
+    const bool excluded = likeliest >= sure && one.probability < unlikely * likeliest;
+    const bool unlikely_form = excluded || (one.in_the_energy && one.probability < unlikely * likeliest_form);
     // Nobody would believe it, and it takes no more: it is no rival. The list of causes alone shows it.
     const bool no_rival = one.belief == Belief::beyond && one.share <= top->share && one.probability < unlikely;
     if (one.share >= top->share - ahead && !unlikely_form && !no_rival) ties.push_back(&one);
@@ -96,7 +106,7 @@ Decision decided(const Budget& budget) {
   ties = with_another_state_judged(std::move(ties));
   const bool believed =
       std::any_of(ties.begin(), ties.end(), [](const Contender* one) { return one->belief != Belief::beyond; });
-  if (!believed || probability_of(ties) < sure_enough) return decision;
+  if (!believed || probability_of(ties) < sure) return decision;
   std::set<std::string> sorts;
   for (const Contender* one : ties) sorts.insert(one->sort);
   std::stable_sort(ties.begin(), ties.end(), [](const Contender* a, const Contender* b) {
