@@ -44,6 +44,14 @@ TEST(Abscissa, IsNotOneThatIsHeldWithItsNoise) {
   EXPECT_EQ(abscissa_of(tube, "pressure").column, 1u);
 }
 
+TEST(Abscissa, IsHeldWhereItRestsOverMoreThanHalfOfTheRows) {
+  EXPECT_TRUE(is_held(std::vector<double>{1, 1.1, 1.2, 1.2, 1.2, 1.20001, 1.2, 1.2}));
+  EXPECT_TRUE(is_held(std::vector<double>{1.2, 1.2, 1.2}));
+  EXPECT_FALSE(is_held(std::vector<double>{1, 1.1, 1.2, 1.3, 1.3, 1.3, 1.3}));
+  EXPECT_FALSE(is_held(std::vector<double>{1, 1.1, 1, 1.1}));
+  EXPECT_FALSE(is_held(std::vector<double>{1.2}));
+}
+
 TEST(Abscissa, OfAFamilyIsWhatVariesAlongItsCurves) {
   for (const char* own : {"stretch_circumferential", "stretch_axial", ""}) {
     const Abscissa chosen = abscissa_of(sheets_in_series(), own);

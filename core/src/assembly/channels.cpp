@@ -18,7 +18,8 @@ std::string unit_of(const std::string& name, const std::vector<Observable>& obse
   return found == observables.end() ? std::string() : found->unit;
 }
 
-/// The abscissa of a channel among those of its test; the number of the row where there is none.
+/// The abscissa of a channel among those of its test; time where they are held, the number of the row where there is
+/// none.
 DrawnOver drawn_over(const std::string& channel, const data::Dataset& dataset,
                      const std::vector<Observable>& observables) {
   DrawnOver drawn{"row", "1", {}, {}};
@@ -26,6 +27,9 @@ DrawnOver drawn_over(const std::string& channel, const data::Dataset& dataset,
     for (std::size_t row = 0; row < dataset.count; ++row) drawn.values.push_back(static_cast<double>(row));
     return drawn;
   }
+  const auto held = [](const auto& abscissa) { return data::is_held(abscissa.second); };
+  if (!dataset.time.empty() && std::all_of(dataset.abscissae.begin(), dataset.abscissae.end(), held))
+    return {"time", "s", dataset.time, {}};
   std::vector<data::Prescribed> prescribed;
   for (const auto& [name, values] : dataset.abscissae) prescribed.push_back({name, unit_of(name, observables), values});
   std::string own;

@@ -137,6 +137,15 @@ Abscissa abscissa_of(std::span<const Prescribed> prescribed, const std::string& 
   return chosen;
 }
 
+bool is_held(std::span<const double> values) {
+  constexpr double rests = 1e-3;  // of the range, from one row to the next
+  const double range = extent(values).range();
+  std::size_t steps = 0;
+  for (std::size_t row = 1; row < values.size(); ++row)
+    if (std::abs(values[row] - values[row - 1]) > rests * range) ++steps;
+  return values.size() > 1 && 2 * steps < values.size() - 1;
+}
+
 std::vector<Line> lines_of(std::span<const double> abscissa, std::span<const std::string> curves) {
   std::vector<std::vector<std::size_t>> members;  // the rows of each curve, one after another
   for (std::size_t row = 0; row < abscissa.size(); ++row) {

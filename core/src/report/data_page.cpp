@@ -81,7 +81,11 @@ Chart curve_chart(const TestData& test, const data::Channel& channel) {
   chart.y.title = with_unit(channel.observable, channel.unit);
   Series curve{channel.observable, "both", -1};
   std::vector<double> x;
-  if (prescribed.empty()) {
+  const auto held = [](const data::Prescribed& one) { return data::is_held(one.values); };
+  if (!prescribed.empty() && !dataset.time.empty() && std::all_of(prescribed.begin(), prescribed.end(), held)) {
+    chart.x.title = with_unit("time", "s");
+    x = dataset.time;
+  } else if (prescribed.empty()) {
     chart.x.title = "row";
     for (std::size_t row = 0; row < dataset.count; ++row) x.push_back(static_cast<double>(row));
   } else {

@@ -15,9 +15,11 @@ namespace {
 
 constexpr std::size_t most_points = 400;
 
-/// The quantities that were prescribed: the columns before the first measured one. Time is one only where it is alone.
-std::vector<std::size_t> prescribed_columns(const Table& table, std::size_t first_measured) {
+/// The quantities that were prescribed: the columns before the first measured one. Time is one only where it is alone,
+/// and the only one where the run draws over it.
+std::vector<std::size_t> prescribed_columns(const Table& table, std::size_t first_measured, const std::string& own) {
   std::vector<std::size_t> columns;
+  if (const auto time = table.find("time"); own == "time" && time) return {*time};
   for (std::size_t column = 1; column < first_measured; ++column)
     if (table.columns()[column].name != "time" || first_measured <= 2) columns.push_back(column);
   return columns.empty() ? std::vector<std::size_t>{1} : columns;
@@ -228,8 +230,8 @@ void add_fits(Page& page, const Folder& folder, const Order& order) {
     std::vector<std::size_t> prescribed;
     for (std::size_t k = 2; k < table->columns().size(); ++k)
       if (const auto predicted = table->find(table->columns()[k].name + ".predicted")) {
-        if (prescribed.empty()) prescribed = prescribed_columns(*table, k);
         const std::string own = own_abscissa(folder.result(), test, table->columns()[k].name);
+        if (prescribed.empty()) prescribed = prescribed_columns(*table, k, own);
         add_channel(page, folder, order, {*table, test, prescribed, k, *predicted, own});
       }
   }

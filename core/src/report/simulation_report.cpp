@@ -50,9 +50,15 @@ Over over_of(const Json& record, const Table& table, const std::string& test, co
   std::vector<std::string> curves;
   for (const Json& one : list(record, "curves")) {
     if (word(one, "test") != test || word(one, "column") != column) continue;
+    const std::vector<std::string> prescribed = words(list(one, "prescribed"));
+    if (const auto time = table.find(word(one, "over"));
+        time && std::find(prescribed.begin(), prescribed.end(), word(one, "over")) == prescribed.end()) {
+      drawn.column = *time;
+      continue;
+    }
     std::vector<std::size_t> columns;
     std::vector<data::Prescribed> quantities;
-    for (const std::string& name : words(list(one, "prescribed")))
+    for (const std::string& name : prescribed)
       if (const auto k = table.find(name)) {
         columns.push_back(*k);
         auto& quantity = quantities.emplace_back(data::Prescribed{name, table.columns()[*k].unit.value_or(""), {}});
