@@ -173,6 +173,10 @@ void print_initial_point(const calibration::PosedProblem& problem) {
     answer("  set-up: the data fix every parameter at the initial point\n");
 }
 
+std::string but_for(std::size_t warnings) {
+  return warnings == 0 ? "" : fmt::format(", but for the {} above", counted(warnings, "warning", "warnings"));
+}
+
 void print(const calibration::Examination& checked, const std::string& file) {
   const auto& [experiment, plan, warnings, notes, problems, paths, understood] = checked;
   answer("{}: {}, {}, {}, seed {}\n", data::excerpt(experiment.name),
@@ -198,7 +202,7 @@ void print(const calibration::Examination& checked, const std::string& file) {
   answer("\n{}\n", checked.good() && experiment.only_predicts
                        ? "In order. `tunica simulate` and `tunica stability` read it as it is; to fit, add "
                          "\"optimizers\" and \"runs\""
-                   : checked.good() ? fmt::format("In order. Next: tunica run {}", file)
+                   : checked.good() ? fmt::format("In order{}. Next: tunica run {}", but_for(warnings.size()), file)
                                     : std::string("Not in order: see above. `tunica run` would still start."));
 }
 

@@ -56,6 +56,15 @@ only("record_size", "Are the sizes those of this tube, and radii rather than dia
 only("record_size", "line 2: without pressure 'outer_diameter'", {**TUBE, "outer_radius": "0.45 mm"})
 assert found({**TUBE, "outer_radius": "0.36 mm"}) == [], "3 % off is how well a tube is measured"
 
+# Sizes that no specimen has.
+(folder / "force.csv").write_text((folder / "strip.csv").read_text().replace("stress [kPa]", "force [mN]"))
+FORCE = {"file": "force.csv", "columns": {"stretch": "stretch", "force": "force"}}
+only("record_size", "the thickness of test 't' is 1200 mm. No specimen is so large",
+     with_data(**FORCE, specimen={"thickness": "1.2 m", "width": "10 mm"}))
+assert found(with_data(**FORCE, specimen={"thickness": "1.2 mm", "width": "10 mm"})) == []
+only("record_size", "the width of test 't' is 1e-05 mm. No specimen is so small",
+     with_data(**FORCE, specimen={"thickness": "1 mm", "width": "0.01 um"}))
+
 # Noise.
 only("record_noise", "is 2, which is 200 % of each value. For 2 % write 0.02",
      with_data(noise={"relative": 2, "absolute": "0.1 kPa"}))

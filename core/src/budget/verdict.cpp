@@ -156,7 +156,6 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
   const std::string like = acts_like ? fmt::format(", which acts like a law of {} here", first.sort) : "";
   std::string text = fmt::format("mainly {}{}{}{}: it takes {} of the misfit", first.term ? "the term " : "", first.id,
                                  like, place_of(first.place), percent(share_of(budget, first)));
-  if (first.belief == Belief::flagged) text += ", with an amplitude somewhat beyond what is plausible";
   std::vector<std::string> others;
   std::size_t own = 0;
   for (const Step& step : budget.steps) {
@@ -166,6 +165,7 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
       others.push_back(step.id);
   }
   if (own > 1) text += fmt::format(" in {} steps", own);
+  if (first.belief == Belief::flagged) text += ", with an amplitude somewhat beyond what is plausible";
   if (own <= 1 && !others.empty()) text += fmt::format(" and leaves {} of the range", percent(first.rest.rms));
   if (!forms.empty()) text += fmt::format("; its form is open ({} alone)", fmt::join(forms, ", "));
   if (others.empty()) return text + "; " + remains(budget.rest(), budget.tolerance);

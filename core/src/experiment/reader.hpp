@@ -56,6 +56,11 @@ void check_shared(const std::vector<SharedParameter>& shared);
 std::vector<data::Finding> bare_angles(const Node& entry, const std::vector<Option>& options,
                                        const std::vector<Parameter>& parameters, std::string_view owner);
 
+// sizes.cpp
+/// Lengths of a test and its specimen that none has, as a wrong unit makes them.
+std::vector<data::Finding> odd_sizes(const Node& entry, const TestEntry& test, const std::vector<Option>& options,
+                                     std::string_view owner);
+
 // reader_models.cpp
 ModelEntry read_model(const std::string& name, const Node& entry, const plugins::Catalogue& catalogue,
                       std::vector<SharedParameter>& shared);

@@ -97,6 +97,8 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
   test.parameters = read_mentioned_parameters(entry, factory.parameters, owner, shared);
   test.mechanisms = read_test_mechanisms(entry, type, owner, catalogue, shared, test.findings);
   test.data = read_data(entry.require("data", owner), factory.observables, owner, folder);
+  for (data::Finding& finding : odd_sizes(entry, test, factory.options, owner))
+    test.findings.push_back(std::move(finding));
   const auto channels = std::count_if(test.data.columns.begin(), test.data.columns.end(), [&](const auto& column) {
     return data::quantity_named(column.first, factory.observables)->observable->role == Role::channel;
   });
