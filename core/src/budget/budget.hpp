@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "budget/steps.hpp"
-#include "diagnosis/evidence/tolerance.hpp"
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/evidence/tolerance.hpp"
 #include "discovery/discovery.hpp"
 
 namespace tunica::budget {

@@ -268,7 +268,8 @@ Entrants entrants_of(Field& field) {
     const bool of_row = chosen[k]->member.mechanism && chosen[k]->member.mechanism->place.row;
     for (const diagnosis::Refit& refit : field.known)
       if (refit.additions.size() == 1 && refit.additions.front().id == chosen[k]->member.key() &&
-          refit.additions.front().place.row.has_value() == of_row && refit.fit.chi2 < mixture->fit.chi2 && refit.fit.jacobian.cols() == mixture->fit.jacobian.cols())
+          refit.additions.front().place.row.has_value() == of_row && refit.fit.chi2 < mixture->fit.chi2 &&
+          refit.fit.jacobian.cols() == mixture->fit.jacobian.cols())
         mixture = field.mixer.mixture_of(refit);
     Entrant entrant;
     const Member& member = mixture->members.front();

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/evidence/misfit_size.hpp"
 #include "budget/mixture.hpp"
 #include "budget/unlisted.hpp"
+#include "diagnosis/evidence/misfit_size.hpp"
 
 namespace tunica::budget {
 

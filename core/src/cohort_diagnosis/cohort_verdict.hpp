@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/evidence/tolerance.hpp"
 #include "cohort_diagnosis/profile.hpp"
+#include "diagnosis/evidence/tolerance.hpp"
 
 namespace tunica::cohort_diagnosis {
 

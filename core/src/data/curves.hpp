@@ -30,8 +30,8 @@ struct Abscissa {
 /// noise. `prescribed` holds at least one quantity, all of the same length.
 Abscissa abscissa_of(std::span<const Prescribed> prescribed, const std::string& own);
 
-/// Whether a quantity rests over more than half of the rows, as a stretch that is held: what happens there is drawn over
-/// time.
+/// Whether a quantity rests over more than half of the rows, as a stretch that is held: what happens there is drawn
+/// over time.
 bool is_held(std::span<const double> values);
 
 /// Rows to be drawn as one line.

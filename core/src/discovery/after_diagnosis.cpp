@@ -38,9 +38,10 @@ diagnosis::Diagnosis with_verdict_of(const Discovery& discovery, diagnosis::Diag
   std::vector<KindPointer> kinds;
   for (const FoundTerm& term : discovery.terms) kinds.push_back(term.kind);
   auto& reasons = d.explanation.reasons;
-  reasons.insert(reasons.begin(), {diagnosis::ReasonKind::terms_discovered,
-                                   fmt::format("the energy lacks {}, |r|² {:.1f} → {:.1f}", words_of(kinds),
-                                               discovery.chi2_before, discovery.chi2_after)});
+  reasons.insert(reasons.begin(),
+                 {diagnosis::ReasonKind::terms_discovered,
+                  fmt::format("the energy lacks {}, |r|² {:.1f} → {:.1f}", lacking_words(discovery.judgement, kinds),
+                              discovery.chi2_before, discovery.chi2_after)});
   return d;
 }
 

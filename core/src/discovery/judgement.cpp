@@ -149,6 +149,18 @@ double probability_of_invariant(const Judgement& judgement, const Kind& kind) {
   });
 }
 
+std::string lacking_words(const Judgement& judgement, const std::vector<KindPointer>& kinds) {
+  std::vector<KindPointer> sure;
+  std::vector<std::string> open;
+  for (const KindPointer& kind : kinds)
+    if (const double p = probability_of_invariant(judgement, *kind); p >= one_invariant)
+      sure.push_back(kind);
+    else
+      open.push_back(fmt::format("with probability {:.2f}, {}", p, words_of({kind})));
+  if (sure.empty() || open.empty()) return words_of(kinds);
+  return fmt::format("{} and, {}", words_of(sure), fmt::join(open, " and, "));
+}
+
 Judgement judge(const Findings& found) {
   Judgement judgement;
   const auto because = [&](ReasonKind kind, std::string text) { judgement.reasons.push_back({kind, std::move(text)}); };
@@ -208,7 +220,7 @@ Judgement judge(const Findings& found) {
       found.from_nothing
           ? fmt::format("The energy is {}; |r|² is {:.1f} for {:.0f} rows.", words, found.chi2_after, found.rows)
           : fmt::format("The energy lacks {}; it takes {:.0f} % of the misfit beyond noise, |r|² {:.1f} → {:.1f}.",
-                        words, 100 * share, found.chi2_before, found.chi2_after);
+                        lacking_words(judgement, best), 100 * share, found.chi2_before, found.chi2_after);
   // An estimate of the noise may be too small. What is left is then no noise, and matters to nobody.
   if (!clean && (share < most_of_it || !found.noise_estimated || !found.rest_is_small)) {
     because(ReasonKind::not_clean,

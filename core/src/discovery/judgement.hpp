@@ -86,4 +86,8 @@ double probability_of_invariant(const Judgement& judgement, const Kind& kind);
 /// "I2 (linear)", "fibre diagonal (exponential_square) and I2 (linear)"
 std::string words_of(const std::vector<KindPointer>& kinds);
 
+/// The same, with those whose invariant is not sure behind the others: "I1 (gent) and, with probability 0.39, I2
+/// (linear)".
+std::string lacking_words(const Judgement& judgement, const std::vector<KindPointer>& kinds);
+
 }  // namespace tunica::discovery

@@ -21,7 +21,7 @@ struct Request {
   double alpha = 0.05;                  ///< false alarms that are accepted
   /// What is not worth caring about, as that of a diagnosis.
   std::vector<std::pair<std::string, std::string>> tolerance = {};
-  bool quick = false;                   ///< linear bootstrap of the alarm only
+  bool quick = false;  ///< linear bootstrap of the alarm only
   std::uint64_t seed = 1;
 
   [[nodiscard]] std::size_t term_limit() const {

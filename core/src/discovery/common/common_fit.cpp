@@ -126,8 +126,8 @@ std::optional<CommonFit> CommonFitter::grown(const CommonFit& from, const KindPo
 std::optional<CommonFit> CommonFitter::refitted(const CommonFit& before) const {
   CommonFit again;
   for (const KindPointer& kind : before.kinds) {
-    const auto here = std::find_if(kinds_.begin(), kinds_.end(),
-                                   [&](const KindPointer& one) { return one->name == kind->name; });
+    const auto here =
+        std::find_if(kinds_.begin(), kinds_.end(), [&](const KindPointer& one) { return one->name == kind->name; });
     if (here == kinds_.end()) return std::nullopt;
     again.kinds.push_back(*here);
   }
@@ -167,8 +167,7 @@ std::optional<CommonFit> CommonFitter::with_linear(const CommonFit& from, std::s
   return weighed(std::move(simpler));
 }
 
-std::optional<CommonFit> CommonFitter::distilled(const CommonFit& from, const KindPointer& law,
-                                                 double worth) const {
+std::optional<CommonFit> CommonFitter::distilled(const CommonFit& from, const KindPointer& law, double worth) const {
   const auto same = [&](const KindPointer& kind) { return kind->invariant_words() == law->invariant_words(); };
   CommonFit simpler{from.kinds, {}};
   std::erase_if(simpler.kinds, same);
