@@ -19,7 +19,6 @@ namespace {
 constexpr std::size_t beam = 16;      ///< sets that larger ones grow from
 constexpr std::size_t exchanged = 6;  ///< sets in which terms make room for others
 constexpr std::size_t at_once = 16;   ///< fits between two looks at what is still worth one
-constexpr std::size_t refitted = 48;  ///< sets of an earlier search
 constexpr double tolerance = 10;      ///< of the evidence, behind the best so far
 
 using Key = std::vector<std::string>;
@@ -48,7 +47,10 @@ bool likelier(const CommonFit& a, const CommonFit& b) { return a.log_evidence > 
 /// What was tried, and what came of it.
 class Ledger {
  public:
-  Ledger(const CommonFitter& fitter, const Search& request) : fitter_(fitter), request_(request) {}
+  Ledger(const CommonFitter& fitter, const Search& request) : fitter_(fitter), request_(request) {
+    if (request.before)
+      for (const CommonFit& set : *request.before) before_.emplace(key_of(set.kinds), &set);
+  }
 
   /// Every set grown by every kind that suits it, if it is new; those that could be fitted, likeliest first. What
   /// promises most is fitted first. What cannot come near the best of the smaller sets is not fitted, nor what can
@@ -63,7 +65,7 @@ class Ledger {
       const double worth = std::max(smaller - tolerance, std::min(best_so_far - tolerance, lowest_of(best, kept)));
       std::vector<std::optional<CommonFit>> results(last - first);
       tbb::parallel_for(first, last, [&](std::size_t k) {
-        if (jobs[k].most >= worth) results[k - first] = fitter_.grown(*jobs[k].from, *jobs[k].kind, worth);
+        if (jobs[k].most >= worth) results[k - first] = fitted(jobs[k], worth);
       });
       for (std::size_t k = first; k < last; ++k) {
         auto& result = results[k - first];
@@ -79,20 +81,8 @@ class Ledger {
     std::vector<CommonFit> grown;
     for (auto& [key, fit] : best) grown.push_back(fit);
     std::stable_sort(grown.begin(), grown.end(), likelier);
-    for (auto& [key, fit] : best) all_.emplace(key, std::move(fit));
+    for (auto& [key, fit] : best) keep(key, std::move(fit));
     return grown;
-  }
-
-  /// Sets that were fitted with another noise, likeliest first, as far as a larger set may grow from them.
-  void refit(const std::vector<CommonFit>& before) {
-    std::vector<std::optional<CommonFit>> results(std::min(before.size(), refitted));
-    tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t k) { results[k] = fitter_.refitted(before[k]); });
-    for (auto& result : results)
-      if (result) {
-        Key key = key_of(result->kinds);
-        tried_.insert(key);
-        all_.emplace(std::move(key), std::move(*result));
-      }
   }
 
   /// The best sets with each of their terms taken out, where that set was fitted.
@@ -127,7 +117,7 @@ class Ledger {
         kinds.erase(kinds.begin() + static_cast<std::ptrdiff_t>(k));
         Key key = key_with(kinds, **linear);
         if (!tried_.insert(key).second) continue;
-        if (auto simpler = fitter_.with_linear(fit, k, *linear)) all_.emplace(std::move(key), std::move(*simpler));
+        if (auto simpler = fitter_.with_linear(fit, k, *linear)) keep(key, std::move(*simpler));
       }
   }
 
@@ -158,16 +148,8 @@ class Ledger {
                       [&](std::size_t k) { results[k] = fitter_.distilled(jobs[k].from, jobs[k].law, worth); });
     bool found = false;
     for (std::size_t k = 0; k < jobs.size(); ++k)
-      if (results[k]) found = all_.emplace(jobs[k].key, std::move(*results[k])).second || found;
+      if (results[k]) found = keep(jobs[k].key, std::move(*results[k])) || found;
     return found;
-  }
-
-  /// The best sets with fewer terms.
-  [[nodiscard]] std::vector<CommonFit> best_below(std::size_t terms) const {
-    std::vector<CommonFit> sets = sorted();
-    std::erase_if(sets, [&](const CommonFit& set) { return set.kinds.size() >= terms; });
-    sets.resize(std::min(sets.size(), beam), fitter_.root());
-    return sets;
   }
 
   /// In the best sets each term makes room for every other kind.
@@ -193,6 +175,21 @@ class Ledger {
     Key key;
     double most;  ///< that the evidence can come to
   };
+
+  /// From where an earlier search with another noise ended, if it knew the set.
+  [[nodiscard]] std::optional<CommonFit> fitted(const Job& job, double worth) const {
+    if (const auto known = before_.find(job.key); known != before_.end()) return fitter_.refitted(*known->second);
+    return fitter_.grown(*job.from, *job.kind, worth);
+  }
+
+  /// The likelier of what is known of a set and what comes now; whether that is new.
+  bool keep(const Key& key, CommonFit fit) {
+    const auto [known, is_new] = all_.try_emplace(key, fit);
+    if (is_new) return true;
+    if (!likelier(fit, known->second)) return false;
+    known->second = std::move(fit);
+    return true;
+  }
 
   /// One for each new set, from the likeliest of the smaller ones, which come first; largest promise first.
   std::vector<Job> jobs_of(const std::vector<CommonFit>& from) {
@@ -236,28 +233,22 @@ class Ledger {
   const Search& request_;
   std::set<Key> tried_, distilled_;
   std::map<Key, CommonFit> all_;
+  std::map<Key, const CommonFit*> before_;
 };
 
 }  // namespace
 
 std::vector<CommonFit> search(const CommonFitter& fitter, const Search& request, const IsClean& is_clean) {
-  constexpr std::size_t exhaustive = 2;
+  constexpr std::size_t pairs = 2;
   Ledger ledger(fitter, request);
-  if (request.before) ledger.refit(*request.before);
-  // What was searched with another noise is not searched again, but sets grow further that leave more than this noise.
-  if (const std::vector<CommonFit> known = ledger.sorted(); !known.empty()) {
-    if (!is_clean(known.front())) ledger.grow(ledger.best_below(request.most_terms), beam);
-    ledger.exchange();
-    return ledger.sorted();
-  }
   std::vector<CommonFit> level{fitter.root()};
   for (std::size_t size = 1; size <= request.most_terms && !level.empty(); ++size) {
-    const std::size_t most = size < exhaustive ? std::numeric_limits<std::size_t>::max() : beam;
+    const std::size_t most = size < pairs ? std::numeric_limits<std::size_t>::max() : beam;
     std::vector<CommonFit> grown = ledger.grow(level, most);
     if (grown.empty()) break;
     const CommonFit best = ledger.sorted().front();
     // Nothing is left to explain, and one term more was not worth its price.
-    if (size >= exhaustive && best.kinds.size() < size && is_clean(best)) break;
+    if (size >= pairs && best.kinds.size() < size && is_clean(best)) break;
     grown.resize(std::min(grown.size(), most));
     level = std::move(grown);
   }

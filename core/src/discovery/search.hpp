@@ -13,15 +13,15 @@ using IsClean = std::function<bool(const CommonFit&)>;
 
 struct Search {
   std::size_t most_terms;
-  std::size_t most_parameters = 0;                 ///< 0 = no limit
-  const std::vector<CommonFit>* before = nullptr;  ///< sets of the same rows with another noise, likeliest first
+  std::size_t most_parameters = 0;  ///< 0 = no limit
+  const std::vector<CommonFit>* before =
+      nullptr;  ///< of the same rows with another noise: fits begin where these ended
 };
 
-/// Sets of terms that were fitted, likeliest first. Single terms and pairs are tried exhaustively: the best single term
-/// often belongs to no pair. Larger sets grow from the best of the smaller ones, while what these leave is not noise,
-/// or while the last term was worth more than it costs. In the best sets each term then makes room for every other
-/// kind. After a search with another noise its sets are fitted again, and only that exchange is done. The outcome does
-/// not depend on threads.
+/// Sets of terms that were fitted, likeliest first. All single terms are tried, and all pairs that promise enough: the
+/// best single term often belongs to no pair. Larger sets grow from the best of the smaller ones, while what these
+/// leave is not noise, or while the last term was worth more than it costs. In the best sets each term then makes room
+/// for every other kind. The outcome does not depend on threads.
 std::vector<CommonFit> search(const CommonFitter& fitter, const Search& request, const IsClean& is_clean);
 
 }  // namespace tunica::discovery
