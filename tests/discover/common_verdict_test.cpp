@@ -212,29 +212,6 @@ TEST(VerdictOfSpecimens, SaysInWhomMoreThanNoiseIsLeft) {
   EXPECT_EQ(nine.found.specimens[8].p_after, 1);
 }
 
-/// Where some channel says itself how large its noise is, terms that take nearly all are discovered all the same.
-TEST(VerdictOfSpecimens, TakesEstimatedNoiseOfAnySpecimen) {
-  for (const int open : {-1, 0, 3}) {
-    Specimens four(std::vector<Levels>(4, {100, 0, 3}));
-    if (open >= 0)
-      four.found.specimens[static_cast<std::size_t>(open)].analysis.evidence.noise[0].kind =
-          diagnosis::NoiseSource::Kind::differences;
-    four.settle({four.grown({0})});
-    EXPECT_EQ(four.found.judgement.verdict, open < 0 ? Verdict::unknown : Verdict::discovered) << open;
-    EXPECT_NE(said(four.found, ReasonKind::not_clean), "") << open;
-  }
-}
-
-/// What is left has to be small in every one of them: 3 of a range of 30 is not.
-TEST(VerdictOfSpecimens, TakesASmallRestInEverySpecimen) {
-  std::vector<Levels> levels(4, {100, 0, 3});
-  levels[2] = {30, 0, 3};
-  Specimens four(levels);
-  four.found.specimens[0].analysis.evidence.noise[0].kind = diagnosis::NoiseSource::Kind::differences;
-  four.settle({four.grown({0})});
-  EXPECT_EQ(four.found.judgement.verdict, Verdict::unknown);
-}
-
 /// A mechanism has to be ahead of terms by so much of the evidence in every specimen.
 TEST(VerdictOfSpecimens, NamesWhatIsAheadInEverySpecimen) {
   for (const double ahead : {8.0, 10.0}) {

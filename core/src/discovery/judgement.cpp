@@ -18,7 +18,6 @@ namespace {
 
 using diagnosis::Verdict;
 
-constexpr double most_of_it = 0.9;     ///< of the misfit, that terms have to take where the rest is no noise
 constexpr double clear_of_rig = 0.25;  ///< probability of the rig above which nothing is said to be discovered
 constexpr double one_invariant = 0.75;
 constexpr double worth_a_name = 3;  ///< of the evidence of a specimen, by which a mechanism has to be ahead of terms
@@ -218,11 +217,11 @@ Judgement judge(const Findings& found) {
   }
   const std::string taken =
       found.from_nothing
-          ? fmt::format("The energy is {}; |r|² is {:.1f} for {:.0f} rows.", words, found.chi2_after, found.rows)
+          ? fmt::format("The energy is {}; |r|² is {:.1f} for {:.0f} rows.", lacking_words(judgement, best),
+                        found.chi2_after, found.rows)
           : fmt::format("The energy lacks {}; it takes {:.0f} % of the misfit beyond noise, |r|² {:.1f} → {:.1f}.",
                         lacking_words(judgement, best), 100 * share, found.chi2_before, found.chi2_after);
-  // An estimate of the noise may be too small. What is left is then no noise, and matters to nobody.
-  if (!clean && (share < most_of_it || !found.noise_estimated || !found.rest_is_small)) {
+  if (!clean) {
     because(ReasonKind::not_clean,
             fmt::format("The best terms, {}, take {:.0f} % of the misfit beyond noise, and the rest is not noise.",
                         words, 100 * share));
@@ -243,7 +242,6 @@ Judgement judge(const Findings& found) {
   else if (forms > 1)
     because(ReasonKind::form_open, fmt::format("{} forms are about as likely on these data: {}{}.", forms,
                                                laws_left(judgement.ambiguity), forms > 4 ? "; …" : ""));
-  if (!clean) because(ReasonKind::not_clean, fmt::format("What they leave is not noise (p = {:.2g}).", found.p_after));
   return judgement;
 }
 

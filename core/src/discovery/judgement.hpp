@@ -61,8 +61,6 @@ struct Findings {
   std::vector<Rival> rivals = {};     ///< mechanisms, likeliest first
   PathDependence paths = {};
   double rows = 0, chi2_before = 0, chi2_after = 0, p_after = 1;
-  bool noise_estimated = false;
-  bool rest_is_small = false;  ///< within the tolerance or not far from it
   std::size_t specimens = 1;
 };
 

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "diagnosis/evidence/tolerance.hpp"
-
 namespace tunica::discovery {
 
 using diagnosis::Verdict;
@@ -52,16 +50,6 @@ Discovery nothing_missing(const Request& request, diagnosis::Analysis analysis) 
   return found;
 }
 
-bool is_small(const diagnosis::Evidence& evidence, const Request& request, const diagnosis::Fit& rest) {
-  constexpr double half_again = 1.5;
-  const diagnosis::Tolerance tolerance = diagnosis::tolerance_of(analysis_request(request), evidence);
-  return diagnosis::MisfitSize(evidence).of(rest).rms <= half_again * tolerance.share;
-}
-
-bool has_open_noise(const diagnosis::Evidence& evidence) {
-  return std::any_of(evidence.noise.begin(), evidence.noise.end(), [](const auto& source) { return source.open(); });
-}
-
 void settle(Discovery& found, const std::vector<SetFit>& sets) {
   const diagnosis::Evidence& evidence = found.analysis.evidence;
   Findings findings{found.request.from_nothing, {}, found.rivals, found.paths};
@@ -70,8 +58,6 @@ void settle(Discovery& found, const std::vector<SetFit>& sets) {
   findings.chi2_before = evidence.fit.chi2;
   findings.chi2_after = found.chi2_after;
   findings.p_after = found.p_after;
-  findings.noise_estimated = has_open_noise(evidence);
-  findings.rest_is_small = !found.best || is_small(evidence, found.request, found.best->fit);
   found.judgement = judge(findings);
   if (found.judgement.offers_terms) found.terms = terms_of(*found.best, found.judgement);
 }

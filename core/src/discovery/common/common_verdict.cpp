@@ -149,8 +149,6 @@ void settle(CommonDiscovery& found, const CommonFitter& fitter, std::vector<Comm
     }
     p_values.push_back(one.p_after);
     paths.push_back(path_dependence(evidence, fit));
-    findings.noise_estimated = findings.noise_estimated || has_open_noise(evidence);
-    findings.rest_is_small = (s == 0 || findings.rest_is_small) && is_small(evidence, found.request, fit);
   }
   found.p_after = p_of_rests(p_values);
   found.paths = common_paths(paths);
