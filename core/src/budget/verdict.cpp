@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "budget/budget.hpp"
+#include "budget/decision.hpp"
 #include "budget/output/outputs.hpp"
 #include "diagnosis/naming/causes.hpp"
 #include "diagnosis/naming/unseen_rivals.hpp"
@@ -21,102 +21,6 @@ namespace {
 using diagnosis::Explanation;
 using diagnosis::ReasonKind;
 using diagnosis::Verdict;
-
-constexpr double most_of_it = 0.5;   ///< of the misfit: what leads takes so much at least
-constexpr double ahead = 0.15;       ///< of the misfit: of the next cause that is another one
-constexpr double unlikely = 0.01;    ///< of the probability of the likeliest form
-constexpr double sure_enough = 0.9;  ///< probability, with "no listed cause" among the rivals
-
-/// What the contenders allow to say.
-struct Decision {
-  Verdict verdict = Verdict::unknown;
-  std::vector<const Contender*> first;  ///< what leads, or is about as good; best first
-};
-
-double probability_of(const std::vector<const Contender*>& some) {
-  double sum = 0;
-  for (const Contender* one : some) sum += one->probability;
-  return sum;
-}
-
-/// Where no cause takes half by itself, one may take it beside others: by its own part in the steps.
-Decision leading_by_steps(const Budget& budget, Decision decision) {
-  if (budget.unlisted_probability > 1 - sure_enough) return decision;
-  std::map<std::string, double> parts;
-  for (const Step& step : budget.steps) parts[step.id] += step.belief == Belief::beyond ? 0 : step.shapley;
-  std::vector<std::pair<double, std::string>> ranking{{0, ""}, {0, ""}};
-  for (const auto& [id, part] : parts) ranking.emplace_back(part, id);
-  std::sort(ranking.rbegin(), ranking.rend());
-  if (ranking[0].first < most_of_it || ranking[0].first < ranking[1].first + ahead) return decision;
-  for (const Contender& one : budget.contenders)
-    if (one.id == ranking[0].second && one.belief != Belief::beyond) {
-      decision.verdict = Verdict::leading;
-      decision.first = {&one};
-      return decision;
-    }
-  return decision;
-}
-
-/// What leads where one test with parameters of its own competes with causes that are listed. It takes what any of them
-/// takes there: it goes where they are sure without it and take as much, and leads where it is sure by itself.
-std::vector<const Contender*> with_another_state_judged(std::vector<const Contender*> ties) {
-  constexpr double as_much = 0.05;
-  const auto is_state = [](const Contender* one) { return one->id == "another_state"; };
-  std::vector<const Contender*> listed, states;
-  std::partition_copy(ties.begin(), ties.end(), std::back_inserter(states), std::back_inserter(listed), is_state);
-  if (states.empty()) return ties;
-  double most = 0, listed_most = 0;
-  for (const Contender* one : states) most = std::max(most, one->share);
-  for (const Contender* one : listed)
-    if (one->belief != Belief::beyond) listed_most = std::max(listed_most, one->share);
-  if (probability_of(listed) >= sure_enough && listed_most >= most - as_much) return listed;
-  return probability_of(states) >= sure_enough ? states : ties;
-}
-
-Decision decided(const Budget& budget) {
-  Decision decision;
-  if (budget.base.rms <= budget.tolerance.share) return decision;
-  const Contender* top = nullptr;
-  for (const Contender& one : budget.contenders)
-    if (one.belief != Belief::beyond && (top == nullptr || one.share > top->share)) top = &one;
-  if (top == nullptr || budget.rough) return decision;
-  // What nobody would believe and takes far less is no reason to doubt.
-  double incredible = 0;
-  for (const Contender& one : budget.contenders)
-    if (one.belief == Belief::beyond && one.share < top->share - ahead) incredible += one.probability;
-  const double sure = sure_enough * (1 - incredible);
-  // Among those that take about as much the evidence decides. Forms of the energy are many and alike: it decides among
-  // them where none is sure.
-  double likeliest = 0, likeliest_form = 0;
-  for (const Contender& one : budget.contenders)
-    if (one.share >= top->share - ahead) {
-      if (one.belief != Belief::beyond) likeliest = std::max(likeliest, one.probability);
-      if (one.in_the_energy) likeliest_form = std::max(likeliest_form, one.probability);
-    }
-  std::vector<const Contender*> ties;
-  for (const Contender& one : budget.contenders) {
-    if (one.share > top->share + ahead) return decision;  // its name is not for the runner-up to have
-    const bool excluded = likeliest >= sure && one.probability < unlikely * likeliest;
-    const bool unlikely_form = excluded || (one.in_the_energy && one.probability < unlikely * likeliest_form);
-    // Nobody would believe it, and it takes no more: it is no rival. The list of causes alone shows it.
-    const bool no_rival = one.belief == Belief::beyond && one.share <= top->share && one.probability < unlikely;
-    if (one.share >= top->share - ahead && !unlikely_form && !no_rival) ties.push_back(&one);
-  }
-  if (top->share < most_of_it) return leading_by_steps(budget, std::move(decision));
-  ties = with_another_state_judged(std::move(ties));
-  const bool believed =
-      std::any_of(ties.begin(), ties.end(), [](const Contender* one) { return one->belief != Belief::beyond; });
-  if (!believed || probability_of(ties) < sure) return decision;
-  std::set<std::string> sorts;
-  for (const Contender* one : ties) sorts.insert(one->sort);
-  std::stable_sort(ties.begin(), ties.end(), [](const Contender* a, const Contender* b) {
-    return std::pair(a->belief == Belief::beyond, -a->probability) <
-           std::pair(b->belief == Belief::beyond, -b->probability);
-  });
-  decision.verdict = sorts.size() == 1 ? Verdict::leading : Verdict::indistinguishable;
-  decision.first = std::move(ties);
-  return decision;
-}
 
 /// Of the steps of the same cause; of a contender that is no step its own.
 double share_of(const Budget& budget, const Contender& contender) {
@@ -172,15 +76,29 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
   return fmt::format("{}; with {}, {}", text, fmt::join(others, " and "), remains(budget.rest(), budget.tolerance));
 }
 
+/// One of each sort; powers of the stretches that act like different invariants have one name.
 std::string tie_words(const Budget& budget, const Decision& decision) {
-  std::vector<std::string> parts;
+  std::vector<const Contender*> shown;
   std::set<std::string> sorts;
+  std::map<std::string, int> named;
   for (const Contender* one : decision.first)
-    if (sorts.insert(one->sort).second)
-      parts.push_back(fmt::format("{}{} {}{}", one->id, place_of(one->place), percent(one->share),
-                                  one->belief == Belief::beyond ? " (beyond what is plausible)" : ""));
+    if (sorts.insert(one->sort).second) {
+      shown.push_back(one);
+      ++named[one->id + place_of(one->place)];
+    }
+  std::vector<std::string> parts;
+  for (const Contender* one : shown) {
+    const bool alike = named[one->id + place_of(one->place)] > 1;
+    parts.push_back(fmt::format("{}{}{} {}{}", one->id, alike ? ", acting like " + one->sort + "," : "",
+                                place_of(one->place), percent(one->share),
+                                one->belief == Belief::beyond ? " (beyond what is plausible)" : ""));
+  }
+  const std::string rest = remains(budget.rest(), budget.tolerance);
+  if (parts.size() == 1)
+    return fmt::format("{} takes so much of the misfit, but what may look like it was not looked for; {}",
+                       parts.front(), rest);
   return fmt::format("alone, these take so much of the misfit that none is clearly ahead: {}; {}",
-                     fmt::join(parts, ", "), remains(budget.rest(), budget.tolerance));
+                     fmt::join(parts, ", "), rest);
 }
 
 std::string unknown_words(const Budget& budget) {
@@ -244,8 +162,8 @@ void withdraw_causes(diagnosis::Diagnosis& d) {
   d.prospects.next.reset();
 }
 
-/// Read otherwise, the file takes far more of the misfit than any cause: no cause is named, and the question stands
-/// first.
+/// Read otherwise, the file takes at least as much of the misfit as any cause, and without a parameter: no cause is
+/// named, and the question stands first.
 void ask_of_the_file(const Budget& budget, diagnosis::Diagnosis& d) {
   withdraw_causes(d);
   d.explanation.verdict = Verdict::indistinguishable;
@@ -269,7 +187,7 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
   Decision decision = decided(budget);
   Explanation& explanation = d.explanation;
   if (const double most = decision.first.empty() ? budget.contenders.front().share : decision.first.front()->share;
-      budget.of_file.share >= std::max(most_of_it, most + ahead)) {
+      budget.of_file.share >= std::max(most_of_it, most)) {
     ask_of_the_file(budget, d);
     return d;
   }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "budget/budget.hpp"
+
+namespace tunica::budget {
+
+inline constexpr double most_of_it = 0.5;   ///< of the misfit: what leads takes so much at least
+inline constexpr double sure_enough = 0.9;  ///< probability, with "no listed cause" among the rivals
+
+/// What the contenders allow to say: `leading`, `indistinguishable` or `unknown`.
+struct Decision {
+  diagnosis::Verdict verdict = diagnosis::Verdict::unknown;
+  std::vector<const Contender*> first;  ///< what leads, or is about as good; best first
+};
+
+/// The rules of docs/diagnosis.md, "What leads", over contenders, steps and tolerance of a budget, which outlives the
+/// answer.
+Decision decided(const Budget& budget);
+
+}  // namespace tunica::budget

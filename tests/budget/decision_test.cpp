@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// What leads, by shares and probabilities that are made up.
+#include "budget/decision.hpp"
+
+#include <gmock/gmock.h>
+
+namespace tunica::budget {
+namespace {
+
+using diagnosis::Verdict;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+Contender rig(const std::string& id, double share, double probability, Belief belief = Belief::plausible) {
+  Contender one;
+  one.id = one.sort = id;
+  one.share = share;
+  one.probability = probability;
+  one.belief = belief;
+  return one;
+}
+
+Contender form(const std::string& id, double share, double probability) {
+  Contender one = rig(id, share, probability);
+  one.in_the_energy = one.term = true;
+  return one;
+}
+
+struct Deciding : ::testing::Test {
+  Deciding() {
+    budget.base.rms = 0.08;
+    budget.tolerance.share = 0.02;
+  }
+  /// The verdict, and what it rests on.
+  std::pair<Verdict, std::vector<std::string>> of(std::vector<Contender> contenders) {
+    budget.contenders = std::move(contenders);
+    const Decision decision = decided(budget);
+    std::vector<std::string> ids;
+    for (const Contender* one : decision.first) ids.push_back(one->id);
+    return {decision.verdict, ids};
+  }
+  void expect(std::vector<Contender> contenders, Verdict verdict, const std::vector<std::string>& ids) {
+    const auto [found, first] = of(std::move(contenders));
+    EXPECT_EQ(found, verdict);
+    EXPECT_EQ(first, ids);
+  }
+  Budget budget;
+};
+
+TEST_F(Deciding, WhatIsFarAheadAndSureLeads) {
+  expect({rig("gain", 0.9, 0.95), rig("offset", 0.7, 0.04)}, Verdict::leading, {"gain"});
+  expect({rig("gain", 0.9, 0.85), rig("offset", 0.7, 0.04)}, Verdict::unknown, {});
+  expect({rig("gain", 0.45, 0.99)}, Verdict::unknown, {});
+  budget.rough = true;
+  expect({rig("gain", 0.9, 0.95)}, Verdict::unknown, {});
+  budget.rough = false;
+  budget.base.rms = 0.02;
+  expect({rig("gain", 0.9, 0.95)}, Verdict::unknown, {});
+}
+
+TEST_F(Deciding, WhatTakesAboutAsMuchTies) {
+  expect({rig("gain", 0.9, 0.9), rig("offset", 0.8, 0.05)}, Verdict::indistinguishable, {"gain", "offset"});
+  expect({rig("offset", 0.9, 0.05), rig("gain", 0.8, 0.9)}, Verdict::indistinguishable, {"gain", "offset"});
+}
+
+/// Less than 1 % of the probability of one that is sure.
+TEST_F(Deciding, WhatTheEvidenceExcludesIsNoRival) {
+  expect({rig("gain", 0.9, 0.95), rig("offset", 0.88, 0.009)}, Verdict::leading, {"gain"});
+  expect({rig("offset", 0.9, 0.009), rig("gain", 0.88, 0.95)}, Verdict::leading, {"gain"});
+  expect({rig("gain", 0.9, 0.95), rig("offset", 0.88, 0.01)}, Verdict::indistinguishable, {"gain", "offset"});
+  expect({rig("offset", 0.52, 0.001), rig("gain", 0.4, 0.95)}, Verdict::unknown, {});
+  expect({form("I1", 0.9, 0.5), form("I2", 0.88, 0.004), rig("gain", 0.6, 0.4)}, Verdict::unknown, {});
+}
+
+TEST_F(Deciding, WhatNobodyWouldBelieveTakesNoName) {
+  const auto beyond = Belief::beyond;
+  expect({rig("gain", 0.9, 0.97, beyond), rig("offset", 0.7, 0.02)}, Verdict::unknown, {});
+  expect({rig("gain", 0.9, 0.97, beyond), rig("offset", 0.8, 0.02)}, Verdict::indistinguishable, {"offset", "gain"});
+  expect({rig("gain", 0.9, 0.005, beyond), rig("offset", 0.8, 0.95)}, Verdict::indistinguishable, {"offset", "gain"});
+  expect({rig("offset", 0.9, 0.95), rig("gain", 0.85, 0.009, beyond)}, Verdict::leading, {"offset"});
+}
+
+/// It takes far less: half of the probability may be its, and no more.
+TEST_F(Deciding, WhatNobodyWouldBelieveRaisesNoDoubt) {
+  expect({rig("offset", 0.9, 0.76), rig("gain", 0.2, 0.2, Belief::beyond)}, Verdict::leading, {"offset"});
+  expect({rig("offset", 0.9, 0.76), rig("gain", 0.2, 0.2)}, Verdict::unknown, {});
+  expect({rig("offset", 0.9, 0.4), rig("gain", 0.2, 0.58, Belief::beyond)}, Verdict::unknown, {});
+  expect({rig("offset", 0.9, 1e-9), rig("gain", 0.2, 1, Belief::beyond)}, Verdict::unknown, {});
+}
+
+TEST_F(Deciding, AnotherStateGivesWayToASureCauseThatTakesAsMuch) {
+  expect({rig("another_state", 0.92, 0.05), rig("gain", 0.9, 0.93)}, Verdict::leading, {"gain"});
+  expect({rig("another_state", 0.96, 0.05), rig("gain", 0.9, 0.93)}, Verdict::indistinguishable,
+         {"gain", "another_state"});
+  expect({rig("another_state", 0.96, 0.95), rig("gain", 0.9, 0.03)}, Verdict::leading, {"another_state"});
+}
+
+TEST_F(Deciding, FormsOfOneInvariantAreOneAnswer) {
+  Contender exponential = form("I1 (exponential)", 0.9, 0.6), cubic = form("I1 (cubic)", 0.88, 0.38);
+  exponential.sort = cubic.sort = "I1";
+  expect({exponential, cubic}, Verdict::leading, {"I1 (exponential)", "I1 (cubic)"});
+}
+
+}  // namespace
+}  // namespace tunica::budget
