@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -44,12 +45,27 @@ TEST(Abscissa, IsNotOneThatIsHeldWithItsNoise) {
   EXPECT_EQ(abscissa_of(tube, "pressure").column, 1u);
 }
 
-TEST(Abscissa, IsHeldWhereItRestsOverMoreThanHalfOfTheRows) {
-  EXPECT_TRUE(is_held(std::vector<double>{1, 1.1, 1.2, 1.2, 1.2, 1.20001, 1.2, 1.2}));
-  EXPECT_TRUE(is_held(std::vector<double>{1.2, 1.2, 1.2}));
-  EXPECT_FALSE(is_held(std::vector<double>{1, 1.1, 1.2, 1.3, 1.3, 1.3, 1.3}));
-  EXPECT_FALSE(is_held(std::vector<double>{1, 1.1, 1, 1.1}));
-  EXPECT_FALSE(is_held(std::vector<double>{1.2}));
+TEST(Abscissa, IsTimeWhereTheRestIsLong) {
+  const auto over_time = [](const std::vector<double>& values) {
+    return is_over_time(std::vector<Prescribed>{{"stretch", "1", values}}, values);
+  };
+  std::vector<double> ramp, cycles, hold, steps;
+  for (int k = 0; k < 5000; ++k) {
+    ramp.push_back(1 + 1e-4 * k);
+    cycles.push_back(1.25 - 0.25 * std::cos(2 * std::numbers::pi * k / 2500));
+    hold.push_back(k < 300 ? 1 + 0.5 * k / 300 : 1.5 + 1e-3 * ((k * 7919) % 13 - 6) / 6);
+    steps.push_back(1 + 0.1 * std::floor(k / 1000.0));
+  }
+  EXPECT_FALSE(over_time(ramp));
+  EXPECT_FALSE(over_time(cycles));
+  EXPECT_TRUE(over_time(hold)) << "with 0.2 % of the range as noise";
+  EXPECT_TRUE(over_time(steps));
+  EXPECT_TRUE(over_time({1, 1.1, 1.2, 1.2, 1.2, 1.20001, 1.2, 1.2}));
+  EXPECT_TRUE(over_time({1.2, 1.2, 1.2}));
+  EXPECT_FALSE(over_time({1, 1.1, 1.2, 1.3, 1.3, 1.3, 1.3, 1.25}));
+  EXPECT_FALSE(over_time({1, 1.1, 1, 1.1}));
+  EXPECT_FALSE(is_over_time(std::vector<Prescribed>{{"stretch", "1", {1.2, 1.2, 1.2}}}, {})) << "there is no clock";
+  EXPECT_FALSE(is_over_time({}, hold));
 }
 
 TEST(Abscissa, OfAFamilyIsWhatVariesAlongItsCurves) {

@@ -27,11 +27,9 @@ DrawnOver drawn_over(const std::string& channel, const data::Dataset& dataset,
     for (std::size_t row = 0; row < dataset.count; ++row) drawn.values.push_back(static_cast<double>(row));
     return drawn;
   }
-  const auto held = [](const auto& abscissa) { return data::is_held(abscissa.second); };
-  if (!dataset.time.empty() && std::all_of(dataset.abscissae.begin(), dataset.abscissae.end(), held))
-    return {"time", "s", dataset.time, {}};
   std::vector<data::Prescribed> prescribed;
   for (const auto& [name, values] : dataset.abscissae) prescribed.push_back({name, unit_of(name, observables), values});
+  if (data::is_over_time(prescribed, dataset.time)) return {"time", "s", dataset.time, {}};
   std::string own;
   for (const Observable& observable : observables)
     if (observable.name == channel) own = observable.over;

@@ -45,6 +45,22 @@ std::vector<std::size_t> holds(std::span<const double> values, double tolerance)
   return first;
 }
 
+/// How many rows stand in long rests.
+std::size_t rows_at_rest(std::span<const double> values) {
+  constexpr double longer = 3;
+  constexpr std::size_t fewest = 4;
+  const Extent all = extent(values);
+  if (!all.varies()) return values.size();
+  const auto first = holds(values, held_within * all.range());
+  const double ramp = held_within * static_cast<double>(values.size());
+  std::size_t rows = 0;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    const std::size_t count = (k + 1 < first.size() ? first[k + 1] : values.size()) - first[k];
+    if (count >= fewest && static_cast<double>(count) > longer * ramp) rows += count;
+  }
+  return rows;
+}
+
 /// The first rows of the curves of a family: `held` keeps its value along each, and `swept` varies along most rows.
 std::vector<std::size_t> family(std::span<const double> held, std::span<const double> swept) {
   auto first = holds(held, held_within * extent(held).range());
@@ -137,13 +153,10 @@ Abscissa abscissa_of(std::span<const Prescribed> prescribed, const std::string& 
   return chosen;
 }
 
-bool is_held(std::span<const double> values) {
-  constexpr double rests = 1e-3;  // of the range, from one row to the next
-  const double range = extent(values).range();
-  std::size_t steps = 0;
-  for (std::size_t row = 1; row < values.size(); ++row)
-    if (std::abs(values[row] - values[row - 1]) > rests * range) ++steps;
-  return values.size() > 1 && 2 * steps < values.size() - 1;
+bool is_over_time(std::span<const Prescribed> prescribed, std::span<const double> time) {
+  if (time.empty() || prescribed.empty()) return false;
+  return std::all_of(prescribed.begin(), prescribed.end(),
+                     [](const Prescribed& one) { return 2 * rows_at_rest(one.values) > one.values.size(); });
 }
 
 std::vector<Line> lines_of(std::span<const double> abscissa, std::span<const std::string> curves) {

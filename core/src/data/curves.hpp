@@ -30,9 +30,10 @@ struct Abscissa {
 /// noise. `prescribed` holds at least one quantity, all of the same length.
 Abscissa abscissa_of(std::span<const Prescribed> prescribed, const std::string& own);
 
-/// Whether a quantity rests over more than half of the rows, as a stretch that is held: what happens there is drawn
-/// over time.
-bool is_held(std::span<const double> values);
+/// Whether each prescribed quantity rests over more than half of the rows: what happens there is drawn over time, if
+/// there is one. A quantity rests over a run of rows that stays within 2 % of its range, three times as long as that of
+/// an even ramp, and four rows at least.
+bool is_over_time(std::span<const Prescribed> prescribed, std::span<const double> time);
 
 /// Rows to be drawn as one line.
 struct Line {

@@ -81,8 +81,7 @@ Chart curve_chart(const TestData& test, const data::Channel& channel) {
   chart.y.title = with_unit(channel.observable, channel.unit);
   Series curve{channel.observable, "both", -1};
   std::vector<double> x;
-  const auto held = [](const data::Prescribed& one) { return data::is_held(one.values); };
-  if (!prescribed.empty() && !dataset.time.empty() && std::all_of(prescribed.begin(), prescribed.end(), held)) {
+  if (data::is_over_time(prescribed, dataset.time)) {
     chart.x.title = with_unit("time", "s");
     x = dataset.time;
   } else if (prescribed.empty()) {
