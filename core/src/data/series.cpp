@@ -2,8 +2,10 @@
 #include "data/series.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -59,6 +61,23 @@ Grid grid_of(std::vector<double> values, const std::string& unit) {
   return {step, range, values.size(), unit};
 }
 
+/// The unit at the end of a name such as "Force_N", where the header gives none and the quantity can have it; else
+/// empty.
+std::string unit_in_name(const std::string& name, const std::string& base) {
+  constexpr std::array<std::string_view, 15> usual{"N",  "mN", "kN", "uN", "Pa", "kPa", "MPa", "mmHg",
+                                                   "mm", "um", "cm", "ms", "s",  "min", "deg"};
+  const std::size_t at = name.rfind('_');
+  if (at == std::string::npos || at == 0 || base == "1") return {};
+  const std::string unit = name.substr(at + 1);
+  if (std::find(usual.begin(), usual.end(), unit) == usual.end()) return {};
+  try {
+    (void)convert(1, unit, base);
+    return unit;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 /// One file on its way to a series.
 class Reader {
  public:
@@ -104,12 +123,13 @@ class Reader {
       const Csv::Column& header = csv_.columns[index];
       quantities_.push_back(*quantity_named(name, observables_));
       const Quantity& quantity = quantities_.back();
-      series_.columns.push_back({quantity.observable,
-                                 index,
-                                 header.name,
-                                 weight_unit(header.unit.value_or(""), quantity.unit),
-                                 {},
-                                 quantity.kind != From::own});
+      series_.columns.push_back(
+          {quantity.observable,
+           index,
+           header.name,
+           weight_unit(header.unit.value_or(unit_in_name(header.name, quantity.unit)), quantity.unit),
+           {},
+           quantity.kind != From::own});
       in_base_unit(quantities_.size() - 1, 1);  // a wrong unit is reported before the first wrong cell
       if (series_.columns.back().unit.empty() && quantity.unit != "1")
         warnings_.push_back(fmt::format("{}: the header gives no unit; {} is assumed. Write '{} [{}]'.",
