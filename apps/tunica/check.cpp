@@ -199,11 +199,13 @@ void print(const calibration::Examination& checked, const std::string& file) {
     print_parameters(*problem.run->assembly);
     print_initial_point(problem);
   }
-  answer("\n{}\n", checked.good() && experiment.only_predicts
-                       ? "In order. `tunica simulate` and `tunica stability` read it as it is; to fit, add "
-                         "\"optimizers\" and \"runs\""
-                   : checked.good() ? fmt::format("In order{}. Next: tunica run {}", but_for(warnings.size()), file)
-                                    : std::string("Not in order: see above. `tunica run` would still start."));
+  answer("\n{}\n",
+         checked.good() && experiment.only_predicts
+             ? fmt::format("In order{}. `tunica simulate` and `tunica stability` read it as it is; to fit, add "
+                           "\"optimizers\" and \"runs\"",
+                           but_for(warnings.size()))
+         : checked.good() ? fmt::format("In order{}. Next: tunica run {}", but_for(warnings.size()), file)
+                          : std::string("Not in order: see above. `tunica run` would still start."));
 }
 
 /// The data as they were understood, as one HTML file.

@@ -59,11 +59,11 @@ assert found({**TUBE, "outer_radius": "0.36 mm"}) == [], "3 % off is how well a 
 # Sizes that no specimen has.
 (folder / "force.csv").write_text((folder / "strip.csv").read_text().replace("stress [kPa]", "force [mN]"))
 FORCE = {"file": "force.csv", "columns": {"stretch": "stretch", "force": "force"}}
-only("record_size", "the thickness of test 't' is 1200 mm. No specimen is so large",
+only("record_size", "the thickness of test 't' is 1200 mm. Hardly a specimen is so large",
      with_data(**FORCE, specimen={"thickness": "1.2 m", "width": "10 mm"}))
 assert found(with_data(**FORCE, specimen={"thickness": "1.2 mm", "width": "10 mm"})) == []
-only("record_size", "the width of test 't' is 1e-05 mm. No specimen is so small",
-     with_data(**FORCE, specimen={"thickness": "1 mm", "width": "0.01 um"}))
+only("record_size", "the width of test 't' is 1e-07 mm. Hardly a specimen is so small",
+     with_data(**FORCE, specimen={"thickness": "1 mm", "width": "0.1 nm"}))
 
 # Noise.
 only("record_noise", "is 2, which is 200 % of each value. For 2 % write 0.02",

@@ -224,8 +224,10 @@ void Builder::add_blocks(std::size_t number, const data::Dataset& dataset, std::
     const std::string where = fmt::format("test '{}', channel '{}'", channel.test, channel.observable);
     std::vector<std::string> unread;  // warnings of a noise that the objective does not read
     const bool reads = run_.objective == experiment::ObjectiveType::least_squares;
-    channel.sigma =
-        channel_noise(dataset.channels[k], dataset.abscissae, channel.fitted, where, reads ? layout.warnings : unread);
+    // What happens while a stretch is held is no scatter about it.
+    const bool over_time = channel.drawn_over.name == "time" && !dataset.time.empty();
+    const auto along = over_time ? std::vector{std::pair(std::string("time"), dataset.time)} : dataset.abscissae;
+    channel.sigma = channel_noise(dataset.channels[k], along, channel.fitted, where, reads ? layout.warnings : unread);
     if (reads && !channel.sigma.stated())
       unstated_.push_back(noise_words(channel.sigma, channel.test, channel.observable, channel.unit));
     scale_residuals(fitted, run_.objective, channel.weight, &channel.sigma.rows, where);

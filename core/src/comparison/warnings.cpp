@@ -200,7 +200,8 @@ void warn_of_default_bounds(const RunSummary& run, Warnings& warnings) {
     for (const bool upper : {false, true}) {
       const Estimate::Stops& stops = upper ? parameter.stops_upper : parameter.stops_lower;
       const bool winner = parameter.at_bound == (upper ? Estimate::Bound::upper : Estimate::Bound::lower);
-      if (stops.count == 0 || winner) continue;
+      constexpr double hopeless = 1e4;  // times the objective of the winner
+      if (stops.count == 0 || winner || stops.objective > hopeless * std::abs(run.objective)) continue;
       if ((upper ? parameter.upper_kind : parameter.lower_kind) != BoundKind::by_default) continue;
       warnings.push_back(
           {WarningKind::stopped_at_default_bound,

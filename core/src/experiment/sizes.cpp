@@ -8,16 +8,28 @@
 namespace tunica::experiment {
 namespace {
 
-/// Lengths of specimens, mm: from a hundredth of a red blood cell's wall to the length of a leg.
-constexpr double smallest = 1e-4, largest = 1000;
+/// Lengths of specimens, mm: from a tenth of a membrane of 10 nm to the length of a leg.
+constexpr double smallest = 1e-6, largest = 1000;
 
-void look_at_size(const Node& node, const std::string& what, std::string_view owner, double length,
+/// `power`: 1 for a length, 2 for an area.
+void look_at_size(const Node& node, const std::string& what, std::string_view owner, double size, int power,
                   std::vector<data::Finding>& findings) {
-  const double size = std::abs(length);
-  if (size == 0 || !std::isfinite(size) || (size >= smallest && size <= largest)) return;
-  findings.push_back({data::FindingKind::record_size,
-                      fmt::format("{}: the {} of {} is {:.4g} mm. No specimen is so {}. Is its unit right?",
-                                  node.place(), what, owner, length, size < smallest ? "small" : "large")});
+  const double length = power == 1 ? std::abs(size) : std::sqrt(std::abs(size));
+  if (length == 0 || !std::isfinite(length) || (length >= smallest && length <= largest)) return;
+  findings.push_back(
+      {data::FindingKind::record_size,
+       fmt::format("{}: the {} of {} is {:.4g} {}. Hardly a specimen is so {}. Is its unit right?", node.place(), what,
+                   owner, size, power == 1 ? "mm" : "mm2", length < smallest ? "small" : "large")});
+}
+
+void look_along(const Node& node, const data::Sizes& sizes, std::string_view owner,
+                std::vector<data::Finding>& findings) {
+  const auto look = [&](const char* what, const std::optional<double>& length) {
+    if (length) look_at_size(node.child_or_self(what), what, owner, *length, 1, findings);
+  };
+  look("width", sizes.width);
+  look("gauge_length", sizes.gauge_length);
+  look("grip_distance", sizes.grip_distance);
 }
 
 }  // namespace
@@ -27,28 +39,23 @@ std::vector<data::Finding> odd_sizes(const Node& entry, const TestEntry& test, c
   std::vector<data::Finding> findings;
   for (const Option& option : options)
     if (const auto node = entry.find(option.name); node && option.unit == "mm" && test.options.has(option.name))
-      look_at_size(*node, option.name, owner, test.options.number(option.name), findings);
+      look_at_size(*node, option.name, owner, test.options.number(option.name), 1, findings);
+  if (const auto layers = entry.find("layers"))
+    for (std::size_t k = 0; k < test.layers.size(); ++k)
+      look_at_size(layers->element(k), "thickness of a layer", owner, test.layers[k].thickness, 1, findings);
   const auto data = entry.find("data");
   const auto node = data ? data->find("specimen") : std::nullopt;
   if (!node) return findings;
   const data::Specimen& specimen = test.data.specimen;
-  const auto look = [&](const char* what, const std::optional<double>& length) {
-    if (length) look_at_size(node->child_or_self(what), what, owner, *length, findings);
+  const auto look = [&](const char* what, const std::optional<double>& size, int power) {
+    if (size) look_at_size(node->child_or_self(what), what, owner, *size, power, findings);
   };
-  look("thickness", specimen.thickness);
-  look("height", specimen.height);
-  if (specimen.area && (*specimen.area < smallest * smallest || *specimen.area > largest * largest))
-    findings.push_back({data::FindingKind::record_size,
-                        fmt::format("{}: the area of {} is {:.4g} mm2. No specimen is so {}. Is its unit right?",
-                                    node->child_or_self("area").place(), owner, *specimen.area,
-                                    *specimen.area < 1 ? "small" : "large")});
-  const auto look_along = [&](const data::Sizes& sizes) {
-    look("width", sizes.width);
-    look("gauge_length", sizes.gauge_length);
-    look("grip_distance", sizes.grip_distance);
-  };
-  look_along(specimen.all);
-  for (const auto& [direction, sizes] : specimen.directions) look_along(sizes);
+  look("thickness", specimen.thickness, 1);
+  look("height", specimen.height, 1);
+  look("area", specimen.area, 2);
+  look_along(*node, specimen.all, owner, findings);
+  for (const auto& [direction, sizes] : specimen.directions)
+    look_along(node->child_or_self(direction), sizes, owner, findings);
   return findings;
 }
 

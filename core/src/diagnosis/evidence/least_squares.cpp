@@ -144,9 +144,11 @@ class Descent {
   /// Whether the last steps together gained next to nothing: the floor of a valley that data do not close.
   bool creeps(double squares) {
     passed_.push_back(squares);
-    // Beside a misfit of k times the noise, k² times as much says nothing.
+    // Beside a misfit of k times the noise, k² times as much says nothing, up to what a comparison of fits may turn on.
+    constexpr double decides = 0.5;
     const double large = std::max(squares / static_cast<double>(r_.size()), 1.0);
-    return passed_.size() > creep && passed_[passed_.size() - 1 - creep] - squares < data_.negligible * large;
+    const double negligible = std::max(data_.negligible, std::min(data_.negligible * large, decides));
+    return passed_.size() > creep && passed_[passed_.size() - 1 - creep] - squares < negligible;
   }
 
   Status evaluate(Eigen::VectorXd& r, Eigen::MatrixXd* J) {

@@ -32,7 +32,8 @@ struct DataVariant {
   /// A fit is of use only below this |r|². It ends above it once a step promises less than a hundredth of what is
   /// missing, several times in a row: that is another minimum.
   double wanted = std::numeric_limits<double>::infinity();
-  /// A fit ends where six steps down together lower |r|² by less than this, times |r|²/n where that is above 1.
+  /// A fit ends where six steps down together lower |r|² by less than this, times |r|²/n where that is above 1, 0.5 at
+  /// most.
   double negligible = 0;
 };
 
