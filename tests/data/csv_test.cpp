@@ -214,6 +214,22 @@ TEST(Csv, WarnsOfAMissingUnit) {
             "strip.csv, line 1, column 2 ('stress'): the header gives no unit; kPa is assumed. Write 'stress [kPa]'.");
 }
 
+/// The unit may be the end of the name, where the quantity can have it.
+TEST(Csv, ReadsAUnitAtTheEndOfAName) {
+  const auto read = [](const std::string& name, const std::string& header) {
+    return read_strip("stretch," + header + "\n1,0\n1.1,2\n", {{"stretch", "stretch"}, {"stress", name}});
+  };
+  const Dataset in_megapascal = read("S11_MPa", "S11_MPa");
+  EXPECT_EQ(in_megapascal.channels[0].values[1], 2000);
+  EXPECT_TRUE(in_megapascal.warnings.empty());
+  EXPECT_EQ(read("S11_MPa", "S11_MPa [Pa]").channels[0].values[1], 0.002) << "what the header says goes first";
+  for (const char* name : {"S11_s", "S_m", "stress_MPA", "_MPa"}) {
+    const Dataset plain = read(name, name);
+    EXPECT_EQ(plain.channels[0].values[1], 2) << name;
+    EXPECT_EQ(plain.warnings.size(), 1u) << name;
+  }
+}
+
 TEST(Csv, RefusesSelectionsThatLeaveNothing) {
   DataRequest request;
   request.where = {{"specimen", "conrtol1"}};

@@ -261,38 +261,13 @@ StressOf slope_between(double from, double to) {
   };
 }
 
-/// A seed with one start in [10, 100], and no other one below 300.
-std::uint64_t seed_of_one_start_on_the_slope(bool quick) {
-  BaseFitBed bed(not_evaluable, 3000);
-  bed.parameter("a").initial = 2999;
-  bed.request.quick = quick;
-  for (bed.request.seed = 1; bed.request.seed < 2000; ++bed.request.seed) {
-    const auto starts = bed.starts();
-    if (starts[0] > 10 && starts[0] < 100 && starts[1] > 300) return bed.request.seed;
-  }
-  ADD_FAILURE() << "no such seed";
-  return 0;
-}
-
-TEST(BaseFitEvaluations, AreFewerOfRandomStartsWhereItHasToBeQuick) {
-  for (const bool quick : {false, true}) {
-    BaseFitBed bed(slope_between(10, 300), 3000);
-    bed.parameter("a").initial = 2999;
-    bed.request.quick = quick;
-    bed.request.seed = seed_of_one_start_on_the_slope(quick);
-    EXPECT_EQ(bed.fit().fit.evaluations, quick ? 60u : 200u);
-  }
-}
-
-TEST(BaseFitEvaluations, AreManyOfTheInitialValues) {
-  for (const bool quick : {false, true}) {
-    BaseFitBed bed(slope_between(1, 300), 30000);  // where no random start is
-    bed.parameter("a").initial = 10;
-    bed.request.quick = quick;
-    const auto found = bed.fit();
-    EXPECT_EQ(found.fit.evaluations, 200u);
-    EXPECT_NEAR(found.fit.free[0], 10 + 199, 0.5);
-  }
+/// Where a step would take half of a misfit that noise does not explain, the fit goes on: 400 steps more, and 12 starts.
+TEST(BaseFitEvaluations, AreMoreWhereASearchEndsOnItsWay) {
+  BaseFitBed bed(slope_between(1, 300), 30000);
+  bed.parameter("a").initial = 10;
+  const auto found = bed.fit();
+  EXPECT_GT(found.fit.free[0], 290) << "the first 200 steps come to 209";
+  EXPECT_GT(bed.asked.size(), 200U);
 }
 
 TEST(BaseFitKept, IsSaidToBeNoOptimumWhereAStepWouldLowerItByATenth) {

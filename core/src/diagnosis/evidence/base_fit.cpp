@@ -118,9 +118,13 @@ std::optional<Warning> bound_warning(const assembly::Assembly& assembly, const F
                              text::joined(bounds))};
 }
 
+/// What one more step of the parameters promises to take of |r|².
+double step_promises(const Fit& fit) { return fit.chi2 - Projection(interior(fit)).off(fit.residuals).squaredNorm(); }
+
 }  // namespace
 
 BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
+  constexpr double far = 0.01, no_fit = 0.5, matters = 10;  // of |r|², and more than noise in so many rows
   const assembly::Assembly& assembly = *prepared.base;
   const bool quick = inquiry.request.quick;
   const std::vector<Variable> variables = all_variables(assembly);
@@ -148,12 +152,29 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
     throw BaseFitFailure(fmt::format("diagnosis: the base model cannot be evaluated from any of {} starts: {}",
                                      fits.size(), fits.front().status.reason()));
   base.fit = *best;
+  // A search that ended on its way has more starts, and more steps.
+  const auto promises = [](const Fit& fit, double share) {
+    return step_promises(fit) > std::max({share * fit.chi2, matters, static_cast<double>(fit.residuals.size())});
+  };
+  if (promises(base.fit, far)) {
+    std::vector<std::vector<double>> more = random_starts(assembly, 12, inquiry.request.seed + 1);
+    more.push_back(base.fit.free);
+    fits.assign(more.size(), {});
+    tbb::parallel_for(std::size_t{0}, more.size(), [&](std::size_t k) {
+      fits[k] = least_squares(assembly, variables, more[k], *assembly.evaluator().make_workspace(), 400);
+    });
+    for (const Fit& fit : fits)
+      if (fit.status.ok() && fit.chi2 < base.fit.chi2) base.fit = fit;
+  }
+  if (promises(base.fit, no_fit))
+    throw BaseFitFailure(fmt::format(
+        "diagnosis: the base model comes to no optimum: one more step promises to take {:.0f} % of |r|² = {:.4g}. Give "
+        "its parameters initial values and bounds, and look at what `tunica run` finds",
+        100 * step_promises(base.fit) / base.fit.chi2, base.fit.chi2));
   if (auto warning = bound_warning(assembly, base.fit))
     base.warnings.insert(base.warnings.begin(), std::move(*warning));
   // Scores presuppose an optimum: what of the residuals a step of the parameters could still take away must be nothing.
-  const Projection projection(interior(base.fit));
-  const double left = base.fit.chi2 - projection.off(base.fit.residuals).squaredNorm();
-  if (left > 0.1)
+  if (const double left = step_promises(base.fit); left > 0.1)
     base.warnings.push_back(
         {WarningKind::base_fit_not_optimal,
          fmt::format("the base fit is not a clear optimum: one more step could lower |r|² by {:.2g}. Take the scores "

@@ -10,7 +10,7 @@
 
 namespace tunica::diagnosis {
 
-/// The base model could not be evaluated from any start.
+/// The base model could not be evaluated from any start, or comes to no optimum.
 class BaseFitFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -23,7 +23,7 @@ struct BaseFit {
 
 /// The base model fitted from its initial values and from random points, and from what the optimizer of the request
 /// finds unless it is quick; the best of all, checked: a gradient that is not zero is no optimum to test from. Throws
-/// BaseFitFailure.
+/// BaseFitFailure, also where one more step promises to take half of |r|².
 BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared);
 
 /// The fit under the noise that it settles.
