@@ -261,7 +261,8 @@ StressOf slope_between(double from, double to) {
   };
 }
 
-/// Where a step would take half of a misfit that noise does not explain, the fit goes on: 400 steps more, and 12 starts.
+/// Where a step would take half of a misfit that noise does not explain, the fit goes on: 400 steps more, and 12
+/// starts.
 TEST(BaseFitEvaluations, AreMoreWhereASearchEndsOnItsWay) {
   BaseFitBed bed(slope_between(1, 300), 30000);
   bed.parameter("a").initial = 10;

@@ -13,8 +13,8 @@ namespace {
 using diagnosis::Verdict;
 using Contenders = std::vector<const Contender*>;
 
-constexpr double ahead = 0.15;    ///< of the misfit: of the next cause that is another one
-constexpr double unlikely = 0.01; ///< of the probability of the likeliest
+constexpr double ahead = 0.15;     ///< of the misfit: of the next cause that is another one
+constexpr double unlikely = 0.01;  ///< of the probability of the likeliest
 
 bool believed(const Contender& one) { return one.belief != Belief::beyond; }
 
@@ -61,8 +61,7 @@ Contenders rivals_of(const Budget& budget, const Contender& top, double sure) {
     if (one.share < top.share - ahead) continue;
     const bool no_form = one.in_the_energy && one.probability < unlikely * likeliest_form;
     const bool more_but_incredible = !believed(one) && one.share > top.share;
-    const bool excluded =
-        !more_but_incredible && likeliest >= sure && one.probability < unlikely * likeliest;
+    const bool excluded = !more_but_incredible && likeliest >= sure && one.probability < unlikely * likeliest;
     // Nobody would believe it, and it takes no more. The list of causes alone shows it.
     const bool incredible = !believed(one) && one.share <= top.share && one.probability < unlikely;
     if (!no_form && !excluded && !incredible) rivals.push_back(&one);
