@@ -58,6 +58,24 @@ TEST_F(Deciding, WhatIsFarAheadAndSureLeads) {
   expect({rig("gain", 0.9, 0.95)}, Verdict::unknown, {});
 }
 
+/// It takes 95 % and leaves 3 % of the range at most.
+TEST_F(Deciding, WhatLeavesNextToNothingLeadsWhateverTheEvidence) {
+  Contender term = form("stretches", 0.96, 0.1);
+  term.rest.rms = 0.029;
+  const Contender other = rig("gain", 0.5, 0.85);
+  expect({term, other}, Verdict::leading, {"stretches"});
+  expect({term, other, rig("another_state", 0.85, 1e-8)}, Verdict::leading, {"stretches"});
+  expect({term, other, rig("offset", 0.85, 0.01)}, Verdict::indistinguishable, {"stretches", "offset"});
+  term.rest.rms = 0.031;
+  expect({term, other}, Verdict::unknown, {});
+  term.rest.rms = 0.029;
+  term.share = 0.94;
+  expect({term, other}, Verdict::unknown, {});
+  term.share = 0.96;
+  budget.unlisted_probability = 0.2;
+  expect({term, other}, Verdict::unknown, {});
+}
+
 TEST_F(Deciding, WhatTakesAboutAsMuchTies) {
   expect({rig("gain", 0.9, 0.9), rig("offset", 0.8, 0.05)}, Verdict::indistinguishable, {"gain", "offset"});
   expect({rig("offset", 0.9, 0.05), rig("gain", 0.8, 0.9)}, Verdict::indistinguishable, {"gain", "offset"});

@@ -165,10 +165,11 @@ TEST(CreepingFits, EndWhenSixStepsGainNextToNothingTogether) {
     data.negligible = negligible / 100;  // |r|² is 400 in four rows
     return Scripted(script, 1).fit(9, 20, data).evaluations;
   };
-  const std::vector<double> steady(15, 0.15), late{5, 5, 5, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
-  EXPECT_EQ(evaluations(steady, 1), 1u + 7u) << "0.9 in the last six of seven";
-  EXPECT_EQ(evaluations(steady, 0.8), 20u);
-  EXPECT_EQ(evaluations(late, 1), 1u + 9u);
+  const std::vector<double> steady(15, 0.075), late{5, 5, 5, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05};
+  EXPECT_EQ(evaluations(steady, 0.5), 1u + 7u) << "0.45 in the last six of seven";
+  EXPECT_EQ(evaluations(steady, 0.4), 20u);
+  EXPECT_EQ(evaluations(late, 0.5), 1u + 9u);
+  EXPECT_EQ(evaluations(std::vector<double>(15, 0.1), 1), 20u) << "0.6: no more than 0.5 says nothing";
 }
 
 /// Rows of 0 and σ whose predictions are two functions of a, two rows each; Jacobians are differences.

@@ -47,6 +47,14 @@ double enough(const Budget& budget, const Contender& top) {
   return sure_enough * (incredible < 0.5 ? 1 - incredible : 1);
 }
 
+/// Whether a cause leaves next to nothing that anybody would care about, and some cause is there. Then no evidence is
+/// asked: what takes far less needs an unlisted misfit several times as large as is tolerated.
+bool is_enough_alone(const Budget& budget, const Contender& top) {
+  constexpr double nearly_all = 0.95, half_again = 1.5;
+  return top.share >= nearly_all && top.rest.rms <= half_again * budget.tolerance.share &&
+         budget.unlisted_probability < 1 - sure_enough;
+}
+
 /// What takes about as much as the best, less what the evidence excludes. Forms of the energy are many and alike: among
 /// them it decides also where none is sure.
 Contenders rivals_of(const Budget& budget, const Contender& top, double sure) {
@@ -97,9 +105,12 @@ Decision decided(const Budget& budget) {
     if (one.share > top->share + ahead) return {};  // its name is not for the runner-up to have
   if (top->share < most_of_it) return leading_by_steps(budget);
   const double sure = enough(budget, *top);
-  Contenders ties = with_another_state_judged(rivals_of(budget, *top, sure), sure);
+  Contenders ties = rivals_of(budget, *top, sure);
+  const bool alone = is_enough_alone(budget, *top);
+  if (alone) std::erase_if(ties, [&](const Contender* one) { return one->probability < unlikely * top->probability; });
+  ties = with_another_state_judged(std::move(ties), sure);
   if (std::none_of(ties.begin(), ties.end(), [](const Contender* one) { return believed(*one); })) return {};
-  if (probability_of(ties) < sure) return {};
+  if (probability_of(ties) < sure && !alone) return {};
   std::stable_sort(ties.begin(), ties.end(), [](const Contender* a, const Contender* b) {
     return std::pair(!believed(*a), -a->probability) < std::pair(!believed(*b), -b->probability);
   });

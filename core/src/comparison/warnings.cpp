@@ -201,7 +201,7 @@ void warn_of_default_bounds(const RunSummary& run, Warnings& warnings) {
       const Estimate::Stops& stops = upper ? parameter.stops_upper : parameter.stops_lower;
       const bool winner = parameter.at_bound == (upper ? Estimate::Bound::upper : Estimate::Bound::lower);
       constexpr double hopeless = 1e4;  // times the objective of the winner
-      if (stops.count == 0 || winner || stops.objective > hopeless * std::abs(run.objective)) continue;
+      if (stops.count == 0 || winner || stops.objective > hopeless * std::max(std::abs(run.objective), 1.0)) continue;
       if ((upper ? parameter.upper_kind : parameter.lower_kind) != BoundKind::by_default) continue;
       warnings.push_back(
           {WarningKind::stopped_at_default_bound,
