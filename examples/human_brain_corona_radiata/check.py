@@ -22,7 +22,7 @@ def run(*words):
 found = run("discover", results / "input.json", "-o", results / "discovery")["discovery"]
 powers = [term["parameters"]["alpha"]["value"] for term in found["terms"] if term["invariant"] == "stretches"]
 assert any(-28 < alpha < -15 for alpha in powers), found["terms"]
-assert "not_clean" in [reason["code"] for reason in found["reasons"]], found["reasons"]
+assert found["reasons"][0]["code"] in ("not_clean", "leads"), found["reasons"]  # what is left is no noise
 best = run("run", results / "discovery" / "extended.json", "-o", results / "extended")["runs"][0]["best"]
 r2 = {name: test["channels"][0]["r2"] for name, test in best["per_test"].items()}
 assert best["stable"] is True and min(r2.values()) > 0.91, r2
