@@ -2,7 +2,6 @@
 #include "data/series.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -59,23 +58,6 @@ Grid grid_of(std::vector<double> values, const std::string& unit) {
     if (!(std::abs(steps - std::round(steps)) <= off)) return {};
   }
   return {step, range, values.size(), unit};
-}
-
-/// The unit at the end of a name such as "Force_N", where the header gives none and the quantity can have it; else
-/// empty.
-std::string unit_in_name(const std::string& name, const std::string& base) {
-  constexpr std::array<std::string_view, 15> usual{"N",  "mN", "kN", "uN", "Pa", "kPa", "MPa", "mmHg",
-                                                   "mm", "um", "cm", "ms", "s",  "min", "deg"};
-  const std::size_t at = name.rfind('_');
-  if (at == std::string::npos || at == 0 || base == "1") return {};
-  const std::string unit = name.substr(at + 1);
-  if (std::find(usual.begin(), usual.end(), unit) == usual.end()) return {};
-  try {
-    (void)convert(1, unit, base);
-    return unit;
-  } catch (const InputError&) {
-    return {};
-  }
 }
 
 /// One file on its way to a series.

@@ -2,6 +2,7 @@
 #include "data/units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -187,6 +188,21 @@ double parse_quantity(std::string_view text, std::string_view base_unit) {
   const double converted = convert(value, unit, base_unit);
   if (!std::isfinite(converted)) return refuse("the number is too large");
   return converted;
+}
+
+std::string unit_in_name(const std::string& name, std::string_view base) {
+  constexpr std::array<std::string_view, 15> usual{"N",  "mN", "kN", "uN", "Pa", "kPa", "MPa", "mmHg",
+                                                   "mm", "um", "cm", "ms", "s",  "min", "deg"};
+  const std::size_t at = name.rfind('_');
+  if (at == std::string::npos || at == 0 || base == "1") return {};
+  const std::string unit = name.substr(at + 1);
+  if (std::find(usual.begin(), usual.end(), unit) == usual.end()) return {};
+  try {
+    (void)convert(1, unit, base);
+    return unit;
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 }  // namespace tunica::data
