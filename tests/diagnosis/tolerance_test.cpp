@@ -29,16 +29,16 @@ struct OneCurve : diagnosis::HandMade {
 
 TEST(Tolerance, IsTwoPerCentOfTheRangeUnlessSomethingSaysMore) {
   EXPECT_EQ(OneCurve().with({}).share, 0.02);
-  EXPECT_STREQ(code_of(OneCurve().with({}).origin), "default");
+  EXPECT_EQ(code_of(OneCurve().with({}).origin), "default");
   const Tolerance repeats = OneCurve(Kind::replicates).with({});
   EXPECT_THAT(repeats.share, DoubleNear(0.05, 1e-12)) << "0.4 of 8 kPa";
-  EXPECT_STREQ(code_of(repeats.origin), "repeats");
+  EXPECT_EQ(code_of(repeats.origin), "repeats");
 }
 
 TEST(Tolerance, IsWhatIsStatedAsAShareOrInTheUnit) {
   const OneCurve bed(Kind::replicates);
   EXPECT_THAT(bed.with({{"", "3 %"}}).share, DoubleNear(0.03, 1e-12));
-  EXPECT_STREQ(code_of(bed.with({{"", "3 %"}}).origin), "stated");
+  EXPECT_EQ(code_of(bed.with({{"", "3 %"}}).origin), "stated");
   EXPECT_THAT(bed.with({{"y", "800 Pa"}}).share, DoubleNear(0.1, 1e-12));
   EXPECT_THAT(bed.with({{"", "3 %"}, {"y", "4 %"}}).share, DoubleNear(0.04, 1e-12)) << "its own comes first";
   EXPECT_THAT(bed.with({{"z", "4 %"}}).share, DoubleNear(0.05, 1e-12)) << "of another observable";

@@ -85,9 +85,7 @@ Profile profile_from(const Json& json) {
 }
 
 diagnosis::Tolerance::Origin origin_from(const std::string& code) {
-  using Origin = diagnosis::Tolerance::Origin;
-  for (const Origin one : {Origin::stated, Origin::repeats, Origin::standard})
-    if (code == diagnosis::code_of(one)) return one;
+  if (const auto origin = text::value_of(diagnosis::tolerance_origins, code)) return *origin;
   throw NoRecord("an origin of a tolerance that there is not");
 }
 

@@ -5,20 +5,6 @@
 
 namespace tunica::diagnosis {
 
-const char* code_of(Tolerance::Origin origin) {
-  switch (origin) {
-    case Tolerance::Origin::stated:
-      return "stated";
-    case Tolerance::Origin::repeats:
-      return "repeats";
-    case Tolerance::Origin::cohort:
-      return "cohort";
-    case Tolerance::Origin::standard:
-      break;
-  }
-  return "default";
-}
-
 Tolerance tolerance_of(const Request& request, const Evidence& evidence) {
   Tolerance tolerance;
   std::vector<double> shares;

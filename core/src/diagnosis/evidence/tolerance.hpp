@@ -3,6 +3,7 @@
 
 #include "diagnosis/evidence/misfit_size.hpp"
 #include "diagnosis/request.hpp"
+#include "text/codes.hpp"
 
 namespace tunica::diagnosis {
 
@@ -13,7 +14,11 @@ struct Tolerance {
   double share = 0.02;  ///< of the range; of channels with their own, averaged as squares over rows
   Origin origin = Origin::standard;
 };
-const char* code_of(Tolerance::Origin origin);
+inline constexpr text::Codes<Tolerance::Origin, 4> tolerance_origins{{{Tolerance::Origin::stated, "stated"},
+                                                                      {Tolerance::Origin::repeats, "repeats"},
+                                                                      {Tolerance::Origin::cohort, "cohort"},
+                                                                      {Tolerance::Origin::standard, "default"}}};
+inline std::string_view code_of(Tolerance::Origin origin) { return text::code_of(tolerance_origins, origin); }
 
 /// As the request states it; else the scatter between the replicates of a curve; else 2 % of the range.
 Tolerance tolerance_of(const Request& request, const Evidence& evidence);
