@@ -96,6 +96,14 @@ TEST(Lines, AreNotDrawnAcrossAJumpBack) {
   for (const Line& line : lines) EXPECT_TRUE(std::is_sorted(line.rows.begin(), line.rows.end()));
 }
 
+TEST(Lines, GoOnWhereRowsAreFartherAndFartherApart) {
+  std::vector<double> time;
+  for (int k = 0; k < 20; ++k) time.push_back(0.02 * std::pow(1.9, k));
+  const auto lines = lines_of(time, {});
+  ASSERT_THAT(lines, SizeIs(1));
+  EXPECT_THAT(lines[0].rows, SizeIs(20));
+}
+
 TEST(Lines, FollowALoopInTheOrderOfItsRows) {
   Values abscissa;
   for (int k = 0; k <= 10; ++k) abscissa.push_back(1 + 0.1 * k);

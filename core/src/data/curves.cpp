@@ -177,9 +177,11 @@ std::vector<Line> lines_of(std::span<const double> abscissa, std::span<const std
       continue;
     }
     lines.push_back({curve, {}, true});
+    double before = 0;  // the last step: rows of a relaxation are farther and farther apart, and one line
     for (const std::size_t row : rows) {
-      if (!lines.back().rows.empty() && std::abs(abscissa[row] - abscissa[lines.back().rows.back()]) > far)
-        lines.push_back({curve, {}, true});
+      const double step = lines.back().rows.empty() ? 0 : abscissa[row] - abscissa[lines.back().rows.back()];
+      if (std::abs(step) > far && !(step * before > 0)) lines.push_back({curve, {}, true});
+      before = step;
       lines.back().rows.push_back(row);
     }
   }

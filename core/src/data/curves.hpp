@@ -42,9 +42,9 @@ struct Line {
   bool path = true;               ///< false: the order of the rows says nothing; they go from low to high abscissa
 };
 
-/// Parts rows at a change of curve and where the abscissa jumps. Rows that go to and fro in long passes are joined in
-/// their order, as loops; the order of other rows means nothing and they are sorted. `curves` has one name a row or
-/// none at all. Rows without a finite abscissa belong to no line.
+/// Parts rows at a change of curve and where the abscissa jumps, but not onwards. Rows that go to and fro in long
+/// passes are joined in their order, as loops; the order of other rows means nothing and they are sorted. `curves` has
+/// one name a row or none at all. Rows without a finite abscissa belong to no line.
 std::vector<Line> lines_of(std::span<const double> abscissa, std::span<const std::string> curves);
 
 }  // namespace tunica::data
