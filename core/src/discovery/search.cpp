@@ -176,9 +176,10 @@ class Ledger {
     double most;  ///< that the evidence can come to
   };
 
-  /// From where an earlier search with another noise ended, if it knew the set.
+  /// From where an earlier search with another noise ended, if it knew the set and the fit holds with this noise.
   [[nodiscard]] std::optional<CommonFit> fitted(const Job& job, double worth) const {
-    if (const auto known = before_.find(job.key); known != before_.end()) return fitter_.refitted(*known->second);
+    if (const auto known = before_.find(job.key); known != before_.end())
+      if (auto again = fitter_.refitted(*known->second)) return again;
     return fitter_.grown(*job.from, *job.kind, worth);
   }
 
