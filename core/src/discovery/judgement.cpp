@@ -215,18 +215,18 @@ Judgement judge(const Findings& found) {
                         laws_left(judgement.ambiguity)));
     return judgement;
   }
-  const std::string taken =
-      found.from_nothing
-          ? fmt::format("The energy is {}; |r|² is {:.1f} for {:.0f} rows.", lacking_words(judgement, best),
-                        found.chi2_after, found.rows)
-          : fmt::format("The energy lacks {}; it takes {:.0f} % of the misfit beyond noise, |r|² {:.1f} → {:.1f}.",
-                        lacking_words(judgement, best), 100 * share, found.chi2_before, found.chi2_after);
   if (!clean) {
     because(ReasonKind::not_clean,
             fmt::format("The best terms, {}, take {:.0f} % of the misfit beyond noise, and the rest is not noise.",
                         words, 100 * share));
     return judgement;
   }
+  const std::string taken =
+      found.from_nothing
+          ? fmt::format("The energy is {}; |r|² is {:.1f} for {:.0f} rows.", lacking_words(judgement, best),
+                        found.chi2_after, found.rows)
+          : fmt::format("The energy lacks {}; it takes {:.0f} % of the misfit beyond noise, |r|² {:.1f} → {:.1f}.",
+                        lacking_words(judgement, best), 100 * share, found.chi2_before, found.chi2_after);
   const auto best_invariants = invariants_of(best);
   const double sure = mass_of(all, [&](const Alternative& one) { return invariants_of(one.kinds) == best_invariants; });
   // Where one invariant is sure and another beside it is open, the first is discovered all the same.

@@ -71,11 +71,7 @@ class Ledger {
         auto& result = results[k - first];
         if (!result) continue;
         best_so_far = std::max(best_so_far, result->log_evidence);
-        const auto found = best.find(jobs[k].key);
-        if (found == best.end())
-          best.emplace(jobs[k].key, std::move(*result));
-        else if (likelier(*result, found->second))
-          found->second = std::move(*result);
+        best.emplace(jobs[k].key, std::move(*result));
       }
     }
     std::vector<CommonFit> grown;

@@ -14,8 +14,8 @@ using IsClean = std::function<bool(const CommonFit&)>;
 struct Search {
   std::size_t most_terms;
   std::size_t most_parameters = 0;  ///< 0 = no limit
-  const std::vector<CommonFit>* before =
-      nullptr;  ///< of the same rows with another noise: fits begin where these ended
+  /// Of the same rows with another noise: fits begin where these ended.
+  const std::vector<CommonFit>* before = nullptr;
 };
 
 /// Sets of terms that were fitted, likeliest first. All single terms are tried, and all pairs that promise enough: the
