@@ -3,9 +3,11 @@
 // A joint energy is evaluated several points at a time; what is in the other lanes must not matter.
 #include "tunica/models/joint_energy.hpp"
 
+#include <cmath>
 #include <span>
 
 #include "on_levels.hpp"
+#include "tunica/detail/solve_strip.hpp"
 
 namespace tunica::testing {
 namespace {
@@ -94,6 +96,28 @@ TEST(JointEnergies, DifferentiateTheStressOfFreeStripsAlone) {
       const Rows all = along_strip(joint, 40, loaded);
       EXPECT_LT(difference(all[6], all[2]), 1e-13) << name(level);
     }
+}
+
+// With κ = 1/3 the families have no direction: λ2 = λ3 is the answer, also where it is no minimum of the energy (µ < 0).
+TEST(JointEnergies, LeaveIsotropicStripsToSymmetry) {
+  const JointEnergy<Joint> joint;
+  const std::vector<double> p{-200, 15, 0.4, 57, 1. / 3};
+  const std::vector<double> stretch{0.7, 0.9, 1.0, 1.3, 1.6};
+  std::vector<double> stress(5), lateral(5);
+  StripPath path{.loaded = 0, .parameters = p, .stretch = stretch, .stress = stress};
+  path.lateral = lateral;
+  Status status;
+  EXPECT_FALSE(joint.solve_strip(path, status));
+  free_strip::Scratch scratch;
+  status = free_strip::solve(joint, path, scratch);
+  ASSERT_TRUE(status.ok()) << status.reason();
+  const auto slope = [&p](double x) { return p[k1] * x * std::exp(p[k2] * x * x); };
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double l = stretch[i], w1 = 0.5 * p[mu] + 2. / 3 * slope((l * l + 2 / l - 3) / 3),
+                 w2 = slope(2 * l + 1 / (l * l) - 3);
+    EXPECT_NEAR(stress[i], 2 * (l * l - 1 / l) * (w1 + w2 / l), 1e-11 * 200) << l;
+    EXPECT_EQ(lateral[i], -std::log(l));
+  }
 }
 
 TEST(JointEnergies, DoNotDependOnTheirNeighbours) {

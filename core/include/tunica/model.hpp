@@ -129,8 +129,9 @@ class Model {
     return Status::failed("this model has no principal-axes path");
   }
   /// Optional: finds the equilibrium of a free strip itself, which spares a call for every step on the way. False if
-  /// the model leaves that to the test; a decorated model must not pass it on, unless it changes nothing. `status` is
-  /// the outcome; a row without equilibrium is a failure, and *strip.lost tells which.
+  /// the model leaves that to the test; a decorated model must not pass it on, unless it changes nothing. A model that
+  /// answers at parameters that make it isotropic must answer with λ2 = λ3; one that iterates returns false there.
+  /// `status` is the outcome; a row without equilibrium is a failure, and *strip.lost tells which.
   virtual bool solve_strip([[maybe_unused]] const StripPath& strip, [[maybe_unused]] Status& status) const {
     return false;
   }

@@ -35,7 +35,7 @@ inline Symmetry symmetry_of_parts(const Model& model, std::span<const double> pa
     if (part->describe().active == EnergyPart::Active::fibre_stretched) return false;
     Invariant x;
     part->invariant(parameters, x, {});
-    return x.fibre == 0 && x.normal == 0 && x.across == 0;
+    return is_isotropic(x);
   });
   return isotropic ? Symmetry::isotropic : Symmetry::other;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <stdexcept>
@@ -62,6 +63,8 @@ class JointEnergy final : public Model {
   }
 
   bool solve_strip(const StripPath& strip, Status& status) const override {
+    const auto invariants = Energy::template invariants<double>(strip.parameters);
+    if (std::all_of(invariants.begin(), invariants.end(), is_isotropic)) return false;
     status = hyperelastic::solve_strip<joint::Strip<Energy>>(*this, strip, strip, !strip.stress_dp.empty());
     return true;
   }
