@@ -17,6 +17,8 @@
 #include "calibration/overrides.hpp"
 #include "comparison/ranking_table.hpp"
 #include "data/nearest.hpp"
+#include "diagnosis/evidence/tolerance.hpp"
+#include "diagnosis/request.hpp"
 #include "execution/checkpoint.hpp"
 #include "execution/shards.hpp"
 #include "exit_codes.hpp"
@@ -26,6 +28,7 @@
 #include "supervisor.hpp"
 #include "text/aside.hpp"
 #include "text/lists.hpp"
+#include "text/misfit_words.hpp"
 #include "text/shell.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
@@ -105,9 +108,14 @@ std::string next_step(const comparison::Summary& summary, const experiment::Expe
                                   [](const auto& entry) { return entry.rank.has_value(); });
   if (first == summary.ranking.end())
     return calibration::check_command(experiment, file) + "\n(evaluates the initial point and shows what fails)";
+  const comparison::RunSummary& best = summary.runs[first->run];
+  if (best.size && best.size->rms > best.tolerance.value_or(diagnosis::Tolerance{}.share) &&
+      diagnosis::request_of(experiment).model == best.model)
+    return fmt::format("tunica diagnose {}\n(what takes the misfit of {} of the range)", file,
+                       text::percent(best.size->rms));
   return fmt::format(
       "tunica simulate {} --model {} --parameters {} -o FOLDER\n(the best fit as curves, in the form of the data)",
-      file, summary.runs[first->run].model, result.string());
+      file, best.model, result.string());
 }
 
 calibration::Options options_of(const GlobalOptions& global, const RunOptions& options, const Session& session) {

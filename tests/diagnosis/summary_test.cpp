@@ -73,9 +73,9 @@ TEST_F(Summary, SaysHowOftenNoiseAloneLooksLikeThis) {
   alarm.detection.p = 9e-5;
   EXPECT_THAT(line("Alarm"), HasSubstr("with p < 0.0001 ("));
   alarm.factor = 1.524;
-  EXPECT_THAT(line("Alarm"), HasSubstr("); the alarm holds even if the noise is 1.52 times larger"));
+  EXPECT_THAT(line("Alarm"), HasSubstr("); the alarm holds even with 1.52 times the noise"));
   alarm.factor = 19;
-  EXPECT_THAT(line("Alarm"), HasSubstr("); the alarm holds even if the noise is 19 or more times larger"));
+  EXPECT_THAT(line("Alarm"), HasSubstr("); the alarm holds even with more than 19 times the noise"));
 }
 
 /// A thousand refits tell no smaller p apart than about one in a thousand.
@@ -98,8 +98,6 @@ TEST_F(Summary, BeginsWithTheVerdict) {
   EXPECT_EQ(line("Verdict"), "NOTHING DETECTED: the model describes these data to within their noise");
   explanation.verdict = Verdict::suspect_data;
   EXPECT_EQ(line("Verdict"), "SUSPECT DATA: one thing; another");
-  explanation.verdict = Verdict::discovered;
-  EXPECT_EQ(line("Verdict"), "DISCOVERED: one thing; another");
   explanation.verdict = Verdict::unknown;
   EXPECT_EQ(line("Verdict"), "UNKNOWN: one thing; another");
   explanation.verdict = Verdict::named;
@@ -207,9 +205,9 @@ TEST_F(Summary, WordsAnAmbiguitySetByWhatLooksAlike) {
 TEST_F(Summary, SaysWhatIsGainedInAndOutOfSample) {
   EXPECT_EQ(line("Gain"), "");
   found.prospects.gain = Gain{100.04, 40, 3.21, {}, {}};
-  EXPECT_EQ(line("Gain"), "|r|² 100.0 → 40.0 (3.2 expected by chance)");
+  EXPECT_EQ(line("Gain"), "|r|² 100.0 → 40.0 (of pure noise it would take about 3.2)");
   claim.named = 2;
-  EXPECT_EQ(line("Gain"), "|r|² 100.0 → 40.0 (3.2 expected by chance with one mechanism)");
+  EXPECT_EQ(line("Gain"), "|r|² 100.0 → 40.0 (of pure noise one mechanism would take about 3.2)");
   using enum BlockVerdict;
   found.prospects.gain->held_out = {{"B", 8, 6, 0.5, 9, predicted},
                                     {"A", 5, 1, 0.5, 9, predicted},
@@ -220,12 +218,25 @@ TEST_F(Summary, SaysWhatIsGainedInAndOutOfSample) {
                                     {"E", 9, 0, 0.5, 9, inconclusive},
                                     {"H", 1, 9e9, 0.5, 9, inconclusive}};
   found.prospects.gain->best_rejected = Rejected{"geometry_error", 55.04};
-  EXPECT_EQ(line("Gain"),
-            "|r|² 100.0 → 40.0 (3.2 expected by chance with one mechanism); predicts A, which it has not seen: error "
-            "5.00 → 1.00 σ; does not predict D: error 12.3 → 1241 σ; the best rejected alternative, geometry_error, "
-            "leaves 55.0");
+  EXPECT_EQ(
+      line("Gain"),
+      "|r|² 100.0 → 40.0 (of pure noise one mechanism would take about 3.2); predicts A, which it has not seen: "
+      "error 5.00 → 1.00 σ; does not predict D: error 12.3 → 1241 σ; the best rejected alternative, geometry_error, "
+      "leaves 55.0");
   found.prospects.gain->held_out = {{"A", 10, 100, 0.5, 9, not_predicted}};
   EXPECT_THAT(line("Gain"), HasSubstr("does not predict A: error 10.0 → 100 σ"));
+}
+
+/// Terms have lines of their own; the best mechanism, which leaves more than they do, is not claimed.
+TEST_F(Summary, ClaimsNoMechanismWhereTermsAreDiscovered) {
+  found.explanation.verdict = Verdict::discovered;
+  found.explanation.reasons = {{ReasonKind::terms_discovered, "the energy lacks I2"},
+                               {ReasonKind::not_clean, "first explains 86 %"},
+                               {ReasonKind::anisotropy_seen, "the directions differ"}};
+  found.prospects.gain = Gain{100, 40, 3, {}, {}};
+  found.prospects.next = NextExperiment{"a second strip", {}, {}};
+  EXPECT_EQ(line("Verdict"), "DISCOVERED: the energy lacks I2; the directions differ");
+  for (const char* const lead : {"Cause", "Or else", "Gain", "Next"}) EXPECT_EQ(line(lead), "") << lead;
 }
 
 TEST_F(Summary, SaysWhatToMeasureNext) {

@@ -98,7 +98,8 @@ TEST(JointEnergies, DifferentiateTheStressOfFreeStripsAlone) {
     }
 }
 
-// With κ = 1/3 the families have no direction: λ2 = λ3 is the answer, also where it is no minimum of the energy (µ < 0).
+// With κ = 1/3 the families have no direction: λ2 = λ3 is the answer, also where it is no minimum of the energy (µ <
+// 0).
 TEST(JointEnergies, LeaveIsotropicStripsToSymmetry) {
   const JointEnergy<Joint> joint;
   const std::vector<double> p{-200, 15, 0.4, 57, 1. / 3};

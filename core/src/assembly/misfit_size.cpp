@@ -141,6 +141,7 @@ std::string where_most(const std::vector<ChannelSize>& channels) {
     return a.of_range().rms < b.of_range().rms;
   });
   if (worst == channels.end()) return "";
+  if (worst->rms <= 0) return "nothing beyond noise";
   return fmt::format("most in {}, {}: {:.3g}{} ({} of the range, at most {})", worst->test, worst->channel, worst->rms,
                      text::unit_suffix(worst->unit), text::percent(worst->of_range().rms),
                      text::percent(worst->of_range().upper));

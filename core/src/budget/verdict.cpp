@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "budget/decision.hpp"
+#include "budget/next_step.hpp"
 #include "budget/output/outputs.hpp"
 #include "diagnosis/naming/causes.hpp"
 #include "diagnosis/naming/unseen_rivals.hpp"
@@ -179,10 +180,8 @@ bool only_mechanisms(const Mixture& mixture) {
                      [](const Member& member) { return member.mechanism.has_value(); });
 }
 
-}  // namespace
-
-diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experiment& experiment,
-                                     const plugins::Catalogue& catalogue, diagnosis::Diagnosis d) {
+diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experiment,
+                            const plugins::Catalogue& catalogue, diagnosis::Diagnosis d) {
   if (budget.contenders.empty()) return d;
   Decision decision = decided(budget);
   Explanation& explanation = d.explanation;
@@ -251,6 +250,19 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
         fmt::format("To tell them apart, a test that switches one of them alone: {}.", fmt::join(how, "; ")),
         explanation.claim.ambiguity_set, std::nullopt};
   return d;
+}
+
+}  // namespace
+
+diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experiment& experiment,
+                                     const plugins::Catalogue& catalogue, diagnosis::Diagnosis diagnosis) {
+  diagnosis = judged(budget, experiment, catalogue, std::move(diagnosis));
+  if (std::string first = next_step(budget, diagnosis.explanation.verdict); !first.empty()) {
+    auto& next = diagnosis.prospects.next;
+    if (!next) next.emplace();
+    next->description = next->description.empty() ? first : first + ' ' + next->description;
+  }
+  return diagnosis;
 }
 
 }  // namespace tunica::budget

@@ -34,7 +34,9 @@ Chart waterfall(const Json& budget) {
   chart.about = "Root mean square of the misfit beyond noise after each cause, as a share of the measured range";
   chart.note = "Each row has all causes above it. All parameters are fitted again at each step.";
   chart.x = {"misfit [% of the range]", false, {0}, {}};
-  chart.rule(100 * number(budget, "tolerance"), "tolerance", 'x');
+  const double tolerance = 100 * number(budget, "tolerance");
+  chart.x.include.push_back(tolerance);
+  chart.rule(tolerance, "tolerance", 'x');
   chart.files = {"result.json"};
   RowSeries left{"misfit", 0, {}};
   const auto add = [&](const std::string& label, const Json& of, const std::string& more) {

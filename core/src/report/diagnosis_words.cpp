@@ -115,9 +115,9 @@ std::string gain_words(const Json& diagnosis) {
   return text + '.';
 }
 
-std::vector<std::string> next_words(const Json& diagnosis) {
-  const Json& next = member(diagnosis, "next_experiment");
+std::vector<std::string> next_words(const Json& diagnosis, const Json& discovery) {
   const std::string verdict = word(diagnosis, "verdict");
+  const Json& next = member(verdict == "discovered" ? discovery : diagnosis, "next_experiment");
   std::vector<std::string> lines;
   if (std::string text = word(next, "description"); !text.empty()) {
     if (const double repeats = number(next, "repeats"); repeats > 1)
@@ -125,7 +125,8 @@ std::vector<std::string> next_words(const Json& diagnosis) {
     lines.push_back(text::capitalised(std::move(text), words(list(next, "separates"))));
   }
   if (const std::string file = word(member(diagnosis, "extension"), "experiment"); !file.empty())
-    lines.push_back(fmt::format("tunica run {} fits the model with the cause added.", file));
+    lines.push_back(fmt::format("tunica run {} fits the model with {} added.", file,
+                                verdict == "discovered" ? "the terms" : "the cause"));
   if (lines.empty() && verdict == "nothing_detected")
     lines.emplace_back("The fitted parameters can be used. Reach lists what could still hide below the noise.");
   return lines;
@@ -154,12 +155,15 @@ void add_verdict(Page& page, const Folder& folder) {
   for (const Json& misfit : list(diagnosis, "misfit"))
     where.push_back(fmt::format("{}, {}: {}", word(misfit, "test"), word(misfit, "channel"), word(misfit, "where")));
   const bool clean = word(diagnosis, "remainder") != "not_clean";
-  for (const Json& cause : list(diagnosis, "causes")) causes.push_back(cause_words(cause, clean));
+  // Where terms are discovered, no mechanism is claimed.
+  const bool discovered = verdict == "discovered";
+  const Json claimed = discovered ? Json::array() : list(diagnosis, "causes");
+  for (const Json& cause : claimed) causes.push_back(cause_words(cause, clean));
   const double p = number(diagnosis, "p_value");
   std::vector<std::string> sure{fmt::format("Noise alone would look like this with {}. Below {} counts as detected.",
                                             chance(p, member(diagnosis, "p_value_is_bound") == true),
                                             figure(number(diagnosis, "alpha")))};
-  if (const double after = number(diagnosis, "p_after"); std::isfinite(after)) {
+  if (const double after = number(diagnosis, "p_after"); std::isfinite(after) && !discovered) {
     const std::string remainder = word(diagnosis, "remainder");
     sure.push_back(fmt::format("With the cause added, noise alone would leave this much with {}{}.", chance(after),
                                remainder == "clean"       ? "; nothing is left to explain"
@@ -173,10 +177,10 @@ void add_verdict(Page& page, const Folder& folder) {
                    {"How sure", sure},
                    {"Where", where},
                    {causes.size() > 1 ? "Causes" : "Cause", causes},
-                   {"Gain", one(gain_words(diagnosis))},
-                   {"What to do next", next_words(diagnosis)}});
+                   {"Gain", one(discovered ? "" : gain_words(diagnosis))},
+                   {"What to do next", next_words(diagnosis, member(folder.result(), "discovery"))}});
   std::set<std::string> explained;  // of several of a kind, the first stands for all
-  for (const Json& cause : list(diagnosis, "causes"))
+  for (const Json& cause : claimed)
     if (const std::string text = word(cause, "explanation");
         !text.empty() && explained.insert(word(cause, "id")).second)
       page.paragraph(text);

@@ -70,7 +70,8 @@ text::StyledText summary(const Budget& budget, const std::string& base) {
   text::StyledText lines;
   std::string text = fmt::format("{} {}", base, text::misses_by(budget.base.rms));
   for (std::size_t k = 0; k < budget.steps.size(); ++k)
-    text += fmt::format("; + {}: {} ({})", added(budget.steps, k), percent(budget.steps[k].rest.rms),
+    text += fmt::format("; + {}: {} ({})", added(budget.steps, k),
+                        budget.steps[k].rest.rms > 0 ? percent(budget.steps[k].rest.rms) : "noise only",
                         percent(budget.steps[k].share));
   text += "; " + text::against_tolerance(budget.rest().rms, budget.rest().upper, budget.tolerance.share,
                                          origin_words(budget.tolerance));

@@ -20,16 +20,23 @@ std::string amount(double value, const std::string& unit) {
 constexpr std::size_t most_rivals = 4;
 
 /// Factors are looked for up to twenty.
-std::string factor_words(double factor) { return factor < 19 ? fmt::format("{:.3g}", factor) : "19 or more"; }
+std::string factor_words(double factor) { return factor < 19 ? fmt::format("{:.3g}", factor) : "more than 19"; }
 
 std::string p_words(const Alarm& alarm) {
   const double p = alarm.p();
   return p < 1e-4 ? "p < 0.0001" : fmt::format("p {} {:.2g}", alarm.p_is_bound() ? "≤" : "=", p);
 }
 
+/// What a reason says of the mechanisms that were tried, and not of the data.
+bool is_of_catalogue(ReasonKind kind) {
+  return kind != ReasonKind::terms_discovered && kind != ReasonKind::anisotropy_seen && kind != ReasonKind::gross_rows;
+}
+
+/// Where terms are discovered, what is not said of them or of the data is left to result.json.
 std::string joined_reasons(const Explanation& explanation) {
   std::vector<std::string> all;
-  for (const Reason& reason : explanation.reasons) all.push_back(reason.text);
+  for (const Reason& reason : explanation.reasons)
+    if (explanation.verdict != Verdict::discovered || !is_of_catalogue(reason.kind)) all.push_back(reason.text);
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
@@ -82,8 +89,7 @@ std::string alarm_line(const Analysis& analysis) {
   std::string text = fmt::format("noise alone would look like this with {} ({} values, |r|² = {:.1f}, {} mechanisms)",
                                  p_words(alarm), analysis.evidence.fit.residuals.size(), analysis.evidence.fit.chi2,
                                  analysis.hypotheses.candidates.size());
-  if (alarm.factor)
-    text += fmt::format("; the alarm holds even if the noise is {} times larger", factor_words(*alarm.factor));
+  if (alarm.factor) text += fmt::format("; the alarm holds even with {} times the noise", factor_words(*alarm.factor));
   return text;
 }
 
@@ -120,12 +126,18 @@ const char* owner_words(const Cause& cause) {
   return cause.group == CauseGroup::material ? " (of the specimen)" : " (of the rig)";
 }
 
+/// "tau = 12 s (10 … 14)"
+std::string amplitude_words(const Amplitude& one) {
+  std::string text = fmt::format("{} = {}", one.name, amount(one.value, one.unit));
+  if (std::isfinite(one.low) && std::isfinite(one.high)) text += fmt::format(" ({:.3g} … {:.3g})", one.low, one.high);
+  return text;
+}
+
 std::string cause_line(const Cause& cause, const Explanation& explanation) {
-  const Amplitude& amplitude = cause.amplitude;
-  const std::string interval =
-      std::isfinite(amplitude.low) ? fmt::format(" ({:.3g} … {:.3g})", amplitude.low, amplitude.high) : std::string();
-  return fmt::format("{} {}{}, {} = {}{}; {}", cause.id, cause.place.words(), owner_words(cause), amplitude.name,
-                     amount(amplitude.value, amplitude.unit), interval, standing_words(cause, explanation));
+  std::string text = fmt::format("{} {}{}, ", cause.id, cause.place.words(), owner_words(cause));
+  text += amplitude_words(cause.amplitude);
+  for (const Amplitude& one : cause.nuisance) text += ", " + amplitude_words(one);
+  return text + "; " + standing_words(cause, explanation);
 }
 
 /// "a (0.12)", "b (at its bound)", "c".
@@ -206,8 +218,8 @@ std::string held_out_words(const Gain& gain) {
 }
 
 std::string gain_line(const Gain& gain, bool several) {
-  std::string text = fmt::format("|r|² {:.1f} → {:.1f} ({:.1f} expected by chance{})", gain.before, gain.after,
-                                 gain.expected_under_nothing, several ? " with one mechanism" : "");
+  std::string text = fmt::format("|r|² {:.1f} → {:.1f} (of pure noise {} would take about {:.1f})", gain.before,
+                                 gain.after, several ? "one mechanism" : "it", gain.expected_under_nothing);
   text += held_out_words(gain);
   if (gain.best_rejected)
     text += fmt::format("; the best rejected alternative, {}, leaves {:.1f}", gain.best_rejected->id,
@@ -326,16 +338,18 @@ text::StyledText summary(const Diagnosis& d, const text::StyledText& below_verdi
   if (const assembly::Misfit misfit = stated_misfit(d.analysis.evidence); wrong && misfit.judged())
     line("Misfit:   ", assembly::in_words(misfit, "stated"));
   if (wrong) line("Wrong:    ", misfit_line(explanation.misfit));
-  for (std::size_t k = 0; k < std::min(claim.named, claim.causes.size()); ++k)
+  // Where terms are discovered, they have lines of their own, and no mechanism is claimed.
+  const bool by_mechanisms = explanation.verdict != Verdict::discovered;
+  for (std::size_t k = 0; by_mechanisms && k < std::min(claim.named, claim.causes.size()); ++k)
     line("Cause:    ", cause_line(claim.causes[k], explanation));
   for (const Cause& row : explanation.left_out) line("Cause:    ", cause_line(row, explanation));
   // The budget has what else there is beside what leads.
   const bool leads = explanation.verdict == Verdict::leading;
-  if (wrong && !leads && !claim.causes.empty()) line("Or else:  ", rivals_line(explanation));
+  if (wrong && by_mechanisms && !leads && !claim.causes.empty()) line("Or else:  ", rivals_line(explanation));
   if (wrong) line("Left out: ", not_tried(d.prospects.detectable));
-  if (d.prospects.gain) line("Gain:     ", gain_line(*d.prospects.gain, claim.named > 1));
+  if (by_mechanisms && d.prospects.gain) line("Gain:     ", gain_line(*d.prospects.gain, claim.named > 1));
   line("Material: ", material_line(explanation.admissibility));
-  if (d.prospects.next) line("Next:     ", d.prospects.next->description);
+  if (by_mechanisms && d.prospects.next) line("Next:     ", d.prospects.next->description);
   if (!wrong) line("May hide: ", could_hide(d.prospects.detectable));
   line("Untold:   ", untellable_line(explanation.file));
   return lines;
