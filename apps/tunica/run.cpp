@@ -41,7 +41,7 @@ namespace tunica::app {
 namespace {
 
 /// Work after the searches that takes no longer needs no words.
-constexpr auto patience = std::chrono::seconds(2);
+constexpr auto silence = std::chrono::seconds(2);
 
 struct RunOptions {
   std::string file, directory, share;
@@ -189,7 +189,7 @@ int run(const GlobalOptions& global, const RunOptions& asked) {
   auto how = options_of(global, options, session);
   std::optional<Stages> stages;
   how.concluding = [&](const std::string& what) {
-    if (!stages) stages.emplace(global.quiet, patience);
+    if (!stages) stages.emplace(global.quiet, silence);
     stages->tell("after the searches: " + what, {});
   };
   const auto outcome = calibration::calibrate(experiment, session.catalogue(), how);

@@ -44,8 +44,7 @@ TEST_F(NextStep, OfAnUnknownCauseDependsOnWhatIsLeft) {
 TEST_F(NextStep, IsNotAskedForWhereNothingIsOpen) {
   EXPECT_EQ(next_step(budget, Verdict::leading), "");
   budget.not_looked_for = {{"viscoelasticity", true}};
-  for (const Verdict verdict :
-       {Verdict::nothing_detected, Verdict::named, Verdict::suspect_data, Verdict::discovered})
+  for (const Verdict verdict : {Verdict::nothing_detected, Verdict::named, Verdict::suspect_data, Verdict::discovered})
     EXPECT_EQ(next_step(budget, verdict), "");
 }
 

@@ -51,10 +51,10 @@ void expect_slope(const Slope& found, double slope, Side side, double within) {
   EXPECT_EQ(found.side, side);
 }
 
-double bent(double d) { return 3 * d + 4 * d * d + d * d * d; }
+double cubic(double d) { return 3 * d + 4 * d * d + d * d * d; }
 
 TEST(Slopes, AreThoseOfTheJacobian) {
-  const auto both = OneMechanism(Side::both, bent, true).slopes();
+  const auto both = OneMechanism(Side::both, cubic, true).slopes();
   ASSERT_THAT(both, SizeIs(1));
   expect_slope(both[0], 3, Side::both, 1e-6);
 }
@@ -62,8 +62,8 @@ TEST(Slopes, AreThoseOfTheJacobian) {
 TEST(Slopes, FollowTheSideThatIsPlausible) {
   const auto down_only = [](MechanismFactory& factory) { factory.plausible_max = factory.null; };
   for (const bool exact : {true, false}) {
-    const auto up = OneMechanism(Side::positive, bent, exact).slopes();
-    const auto down = OneMechanism(Side::positive, bent, exact, -1, down_only).slopes();
+    const auto up = OneMechanism(Side::positive, cubic, exact).slopes();
+    const auto down = OneMechanism(Side::positive, cubic, exact, -1, down_only).slopes();
     ASSERT_TRUE(up.size() == 1 && down.size() == 1) << exact;
     expect_slope(up[0], 3, Side::positive, 2e-3);
     EXPECT_EQ(up[0].sign, 1);
@@ -73,7 +73,7 @@ TEST(Slopes, FollowTheSideThatIsPlausible) {
 }
 
 TEST(Slopes, AreDifferencesOfSecondOrderWithoutAJacobian) {
-  const auto found = OneMechanism(Side::both, bent, false).slopes();
+  const auto found = OneMechanism(Side::both, cubic, false).slopes();
   ASSERT_THAT(found, SizeIs(1));
   expect_slope(found[0], 3, Side::both, 1e-3);
   const auto quick = OneMechanism(
@@ -100,7 +100,7 @@ TEST(Slopes, OfASimulationWithAKinkAreOneForEachSide) {
   expect_slope(two[1], -1, Side::positive, 1e-6);
   EXPECT_EQ(two[1].sign, -1);
   EXPECT_THAT(kinked.slopes(), SizeIs(1)) << "others have none";
-  const auto smooth = OneMechanism(Side::both, bent, true).slopes(false, "tilt");
+  const auto smooth = OneMechanism(Side::both, cubic, true).slopes(false, "tilt");
   ASSERT_THAT(smooth, SizeIs(1));
   expect_slope(smooth[0], 3, Side::both, 1e-6);
 }

@@ -15,7 +15,7 @@ using Abscissae = std::vector<std::pair<std::string, std::vector<double>>>;
 using Rows = std::vector<std::size_t>;
 
 constexpr double turned = 0.05;  ///< of the range of an abscissa
-constexpr double held = 0.01;    ///< of its largest value: an abscissa that is held moves by less
+constexpr double still = 0.01;   ///< of its largest value: an abscissa that is held moves by less
 constexpr std::size_t most_terms = 9, least_branch = 4;
 constexpr double least_freedom = 4;
 
@@ -27,7 +27,7 @@ std::vector<std::size_t> turns_of(const std::vector<double>& x, const Rows& rows
     high = std::max(high, x[row]);
     largest = std::max(largest, std::abs(x[row]));
   }
-  const double enough = std::max(turned * (high - low), held * largest);
+  const double enough = std::max(turned * (high - low), still * largest);
   std::vector<std::size_t> turns;
   std::size_t extreme = 0;  // the last one, or how far the path has come since
   int heading = 0;

@@ -19,7 +19,7 @@ namespace {
 
 using Side = MechanismFactory::Side;
 
-Prediction predict(const WrappedTest& on, const Test& test, const Values& own, bool jacobian) {
+Prediction prediction(const WrappedTest& on, const Test& test, const Values& own, bool jacobian) {
   Prediction found =
       conformance::predict(test, {*on.material.model, on.material.parameters, own}, {.jacobian = jacobian});
   if (!found.status.ok()) throw std::runtime_error("the test answers '" + found.status.reason() + "'");
@@ -66,8 +66,8 @@ Verdict null_is_the_bare_test(const WrappedTest& on, std::uint64_t) {
                   fmt::format("the test holds the amplitude at {:g}, the mechanism declares the null {:g}",
                               on.own[on.amplitude], on.mechanism.null));
   for (const bool jacobian : {true, false}) {
-    const Prediction bare = predict(on, *on.bare, on.bare_own, jacobian),
-                     with = predict(on, *on.with, on.own, jacobian);
+    const Prediction bare = prediction(on, *on.bare, on.bare_own, jacobian),
+                     with = prediction(on, *on.with, on.own, jacobian);
     const auto compare = [&](const Values& one, const Values& other, const char* what) {
       if (other.empty() || std::memcmp(one.data(), other.data(), sizeof(double) * other.size()) == 0) return;
       const double scale = scale_of(other);
@@ -88,8 +88,8 @@ Verdict limit_is_the_bare_test(const WrappedTest& on, std::uint64_t) {
   Meter meter("predictions next to the null with those at it, in each channel", 1e-12);
   const double near = next_to_the_null(on.mechanism);
   if (on.bare->describe().costly) meter.allow(1e-9);  // solved to a tolerance
-  const Values bare = predict(on, *on.bare, on.bare_own, false).values,
-               with = predict(on, *on.with, on.at(near), false).values;
+  const Values bare = prediction(on, *on.bare, on.bare_own, false).values,
+               with = prediction(on, *on.with, on.at(near), false).values;
   const Simulation s = simulation(on, near);
   for (std::size_t i = 0; i < bare.size(); ++i)
     meter.see(std::abs(with[i] - bare[i]) / channel_scale(s, bare, i), [&] {
@@ -102,7 +102,7 @@ Verdict limit_is_the_bare_test(const WrappedTest& on, std::uint64_t) {
 Verdict derivative_at_the_null_matches_differences(const WrappedTest& on, std::uint64_t) {
   const bool costly = on.bare->describe().costly;
   Meter meter("d(prediction)/d(amplitude) at the null with one-sided differences", 1e-6);
-  const Prediction at = predict(on, *on.with, on.own, true);
+  const Prediction at = prediction(on, *on.with, on.own, true);
   const std::size_t size = at.values.size();
   const std::span<const double> column =
       std::span(at.jacobian).subspan((on.material.parameters.size() + on.amplitude) * size, size);
@@ -111,7 +111,7 @@ Verdict derivative_at_the_null_matches_differences(const WrappedTest& on, std::u
     if (side < 0 && on.mechanism.side == Side::positive) continue;
     const double h = side * 2e-3 * plausible(on);
     const auto moved = [&](double steps) {
-      return predict(on, *on.with, on.at(on.mechanism.null + steps * h), false).values;
+      return prediction(on, *on.with, on.at(on.mechanism.null + steps * h), false).values;
     };
     const Values f1 = moved(1), f2 = moved(2), f3 = moved(3), f4 = moved(4);
     for (std::size_t i = 0; i < size; ++i) {
@@ -130,10 +130,10 @@ Verdict derivative_at_the_null_matches_differences(const WrappedTest& on, std::u
 Verdict amplitude_has_an_effect(const WrappedTest& on, std::uint64_t) {
   const std::string compared = "predictions at a plausible amplitude with those at the null";
   const double moved = on.mechanism.null + 0.3 * plausible(on);
-  if (predict(on, *on.with, on.at(moved), false).values == predict(on, *on.with, on.own, false).values)
+  if (prediction(on, *on.with, on.at(moved), false).values == prediction(on, *on.with, on.own, false).values)
     return broken(compared, fmt::format("no prediction changes between {} = {:g} and {:g}",
                                         on.mechanism.parameters[0].name, on.mechanism.null, moved));
-  const Prediction at = predict(on, *on.with, on.own, true);
+  const Prediction at = prediction(on, *on.with, on.own, true);
   const auto column = std::span(at.jacobian)
                           .subspan((on.material.parameters.size() + on.amplitude) * at.values.size(), at.values.size());
   const bool seen = std::any_of(column.begin(), column.end(), [](double entry) { return entry != 0; });

@@ -19,7 +19,7 @@
 namespace tunica::discovery {
 namespace {
 
-struct Searched {
+struct SpecimenSearch {
   std::shared_ptr<const Subject> subject;
   std::vector<SetFit> sets;  ///< likeliest first
   std::string anisotropy = {};
@@ -49,8 +49,8 @@ std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Req
 
 /// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions.
 /// `before`: sets of a search with another noise.
-Searched search_in(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis, const Request& request,
-                   bool has_directions, const std::vector<SetFit>& before) {
+SpecimenSearch search_one(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis,
+                          const Request& request, bool has_directions, const std::vector<SetFit>& before) {
   const diagnosis::Evidence& evidence = analysis.evidence;
   auto subject = std::make_shared<const Subject>(
       Subject{evidence.experiment, evidence.run, request.model, request.from_nothing, inquiry.catalogue});
@@ -64,7 +64,7 @@ Searched search_in(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis&
                          sets_before);
   };
   inquiry.report("terms of the energy", 0.4);
-  Searched found{subject, over(has_directions)};
+  SpecimenSearch found{subject, over(has_directions)};
   const bool clean = !found.sets.empty() && diagnosis::is_clean(p_of_rest(analysis, found.sets.front().fit));
   if (!has_directions) found.anisotropy = diagnosis::anisotropy_words(evidence);
   if (!found.anisotropy.empty() && !clean && request.invariants.empty()) {
@@ -91,12 +91,12 @@ std::vector<diagnosis::HeldOut> gain_of(const diagnosis::Inquiry& inquiry, const
 
 Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis analysis, const Request& request,
                       bool has_directions) {
-  Searched searched = search_in(inquiry, analysis, request, has_directions, {});
+  SpecimenSearch searched = search_one(inquiry, analysis, request, has_directions, {});
   // Noise that the residuals of the base said is asked once more of what the terms leave.
   if (!searched.sets.empty())
     if (auto again = diagnosis::restated(inquiry, analysis, searched.sets.front().fit)) {
       analysis = std::move(*again);
-      searched = search_in(inquiry, analysis, request, has_directions, searched.sets);
+      searched = search_one(inquiry, analysis, request, has_directions, searched.sets);
     }
   Discovery found{request, std::move(analysis), searched.subject};
   found.chi2_before = found.analysis.evidence.fit.chi2;

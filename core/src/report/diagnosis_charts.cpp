@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "report/diagnosis_pieces.hpp"
+#include "report/lines.hpp"
 #include "text/units.hpp"
 
 namespace tunica::report {
 
 namespace {
 
-constexpr std::size_t most_points = 400;
 constexpr std::string_view signature = "signature_";
 
 /// A column with one value a row; empty where the table has none.

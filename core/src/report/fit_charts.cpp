@@ -13,8 +13,6 @@ namespace tunica::report {
 
 namespace {
 
-constexpr std::size_t most_points = 400;
-
 /// The quantities that were prescribed: the columns before the first measured one. Time is one only where it is alone,
 /// and the only one where the run draws over it.
 std::vector<std::size_t> prescribed_columns(const Table& table, std::size_t first_measured, const std::string& own) {

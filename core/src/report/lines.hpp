@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "data/curves.hpp"
@@ -8,6 +9,8 @@
 
 /// The lines of a curve as series of a chart.
 namespace tunica::report {
+
+inline constexpr std::size_t most_points = 400;  ///< of a curve in a chart
 
 /// One series a line, all with the name, mark and style of `whole`, whose values stand at the positions that the lines
 /// hold. The label is the member of the family. Points that are no numbers are left out, long lines are thinned to

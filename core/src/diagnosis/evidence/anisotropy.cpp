@@ -14,7 +14,7 @@ namespace {
 
 using assembly::MeasuredChannel;
 
-constexpr double deviations = 5;
+constexpr double sure_deviations = 5;
 constexpr double same_stretch = 0.02;  ///< of the distance from 1
 
 struct Difference {
@@ -35,7 +35,7 @@ double range_of(const MeasuredChannel& view) {
 void keep(std::optional<Difference>& worst, Difference found, double sigma, double range, double tolerance) {
   const double gap = std::abs(found.one - found.other);
   found.size = gap / range;
-  if (gap > deviations * sigma && found.size > tolerance && (!worst || found.size > worst->size)) worst = found;
+  if (gap > sure_deviations * sigma && found.size > tolerance && (!worst || found.size > worst->size)) worst = found;
 }
 
 /// The direction that a name ends with: "circumferential" of "stress_circumferential"; empty where it has none.

@@ -12,7 +12,7 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr double promised = 1e-6;  ///< of |r|², in noise units
-constexpr double edge = 1e-9;      ///< of the unit box
+constexpr double box_edge = 1e-9;  ///< of the unit box
 constexpr double hopeless = 0.01;  ///< of what is missing to a wanted |r|²
 constexpr int patience = 2;        ///< such steps
 constexpr std::size_t creep = 6;   ///< steps that have to gain something together
@@ -44,7 +44,8 @@ class Descent {
       const Eigen::VectorXd gradient = J_.transpose() * r_;
       std::vector<Eigen::Index> moving;
       for (Eigen::Index k = 0; k < x_.size(); ++k)
-        if (!((x_[k] <= edge && gradient[k] > 0) || (x_[k] >= 1 - edge && gradient[k] < 0))) moving.push_back(k);
+        if (!((x_[k] <= box_edge && gradient[k] > 0) || (x_[k] >= 1 - box_edge && gradient[k] < 0)))
+          moving.push_back(k);
       if (moving.empty()) break;
       const Eigen::MatrixXd A = J_(Eigen::all, moving);
       Eigen::MatrixXd normal = A.transpose() * A;

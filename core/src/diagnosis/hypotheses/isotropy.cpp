@@ -10,7 +10,7 @@ namespace tunica::diagnosis {
 namespace {
 
 constexpr int voigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
-constexpr double rounding = 1e-7;
+constexpr double of_rounding = 1e-7;
 
 Eigen::Matrix3d tensor(const std::vector<double>& components, std::size_t n, std::size_t i) {
   Eigen::Matrix3d T;
@@ -39,7 +39,7 @@ bool is_isotropic(const Model& model) {
   if (!model.evaluate({n, C, parameters, {}, {}}, {{}, S, {}, {}, {}}).ok()) return false;
   for (std::size_t i = 0; i < pairs; ++i) {
     const Eigen::Matrix3d expected = Q * tensor(S, n, 2 * i) * Q.transpose(), found = tensor(S, n, 2 * i + 1);
-    if (!((found - expected).norm() <= rounding * expected.norm())) return false;
+    if (!((found - expected).norm() <= of_rounding * expected.norm())) return false;
   }
   return true;
 }

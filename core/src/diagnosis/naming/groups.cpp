@@ -17,7 +17,7 @@ using Side = MechanismFactory::Side;
 
 constexpr std::size_t quick_pairs = 8, full_pairs = 24;  ///< at finite amplitude
 constexpr std::size_t pool_of_each = 2;                  ///< hypotheses of a candidate that enter pairs
-constexpr std::size_t beside = 3;                        ///< of the best, and of what is left after each: seeds
+constexpr std::size_t seeds = 3;                         ///< of the best, and of what is left after each
 constexpr std::size_t triples_tried = 6;
 constexpr double short_of = 3;             ///< of ln w: what a score may underrate a refit by
 constexpr double one_and_the_same = 0.02;  ///< 1 − c² below which two are one
@@ -54,15 +54,15 @@ class GroupSearch {
   std::vector<Group> triples(std::span<const Group> pairs) {
     std::vector<Group> groups;
     std::set<std::multiset<std::size_t>> seen;
-    for (std::size_t g = 0; g < std::min(pairs.size(), beside); ++g)
-      extend(pairs[g], *pairs[g].refit, g == 0 ? triples_tried : beside, groups, seen);
+    for (std::size_t g = 0; g < std::min(pairs.size(), seeds); ++g)
+      extend(pairs[g], *pairs[g].refit, g == 0 ? triples_tried : seeds, groups, seen);
     groups = fits_.refitted(std::move(groups), 0.63, 0.67);
     if (groups.empty()) return groups;
     std::vector<Group> others;
     for (std::size_t out = 0; out < groups.front().additions.size(); ++out) {
       const Group rest = without_member(groups.front(), out);
       if (const auto refit = fit_with(inquiry_, analysis_, rest.additions, rest.amplitudes))
-        extend(rest, *refit, beside, others, seen);
+        extend(rest, *refit, seeds, others, seen);
     }
     for (Group& group : fits_.refitted(std::move(others), 0.67, 0.7)) groups.push_back(std::move(group));
     sort_by_weight(groups);
@@ -111,12 +111,12 @@ class GroupSearch {
     for (const Group& group : groups) seen.insert(candidates_of(group));
     std::size_t used = 0;
     for (const Single& single : singles_) {
-      if (!single.best || used++ >= beside) break;
+      if (!single.best || used++ >= seeds) break;
       const std::size_t k = single.direction;
       const double gain = fit_.chi2 - single.best->fit.chi2 + 2 * log_prior(directions_[k]);
       Group alone{{k},    {hypotheses_.hypothesis(k).addition}, {amplitude_of(*single.best)}, gain, 0, std::nullopt, {},
                   nullptr};
-      extend(alone, *single.best, beside, groups, seen);
+      extend(alone, *single.best, seeds, groups, seen);
     }
   }
 

@@ -15,7 +15,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr std::size_t quick_draws = 12, full_draws = 64;
+constexpr std::size_t quick_tries = 12, full_tries = 64;
 constexpr std::size_t quick_starts = 3, full_starts = 16;   ///< the best of the draws
 constexpr std::size_t quick_returns = 1, full_returns = 4;  ///< to the best minimum, after which no other is expected
 constexpr double same_minimum = 0.05;                       ///< of |r|²
@@ -143,7 +143,7 @@ std::vector<std::vector<double>> random_starts(const Inquiry& inquiry, const Evi
   boost::random::mt19937_64 generator(derive_seed(inquiry.request.seed, "starts off the bounds"));
   boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
   std::vector<std::pair<double, std::vector<double>>> drawn;
-  for (std::size_t k = 0; k < (inquiry.request.quick ? quick_draws : full_draws); ++k) {
+  for (std::size_t k = 0; k < (inquiry.request.quick ? quick_tries : full_tries); ++k) {
     std::vector<double> unit(evidence.base->layout().parameters.size()), base(unit.size());
     for (std::size_t j = 0; j < base.size(); ++j) base[j] = refit.fit.free[extended.base()[j]];
     evidence.base->box().to_unit(base, unit);

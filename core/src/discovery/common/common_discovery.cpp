@@ -43,7 +43,7 @@ bool is_clean(const std::vector<Searching>& specimens, const CommonFit& fit) {
   return diagnosis::is_clean(p_of_rests(p_values));
 }
 
-struct Searched {
+struct CommonSearch {
   std::vector<std::shared_ptr<const Subject>> subjects;
   std::vector<std::unique_ptr<const Fitter>> fitters;
   std::unique_ptr<const CommonFitter> fitter;
@@ -51,9 +51,9 @@ struct Searched {
 };
 
 /// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions.
-Searched search_in(const std::vector<Searching>& specimens, const Request& request, const plugins::Catalogue& catalogue,
-                   bool has_directions, const std::vector<CommonFit>& before) {
-  Searched found;
+CommonSearch search_in(const std::vector<Searching>& specimens, const Request& request,
+                       const plugins::Catalogue& catalogue, bool has_directions, const std::vector<CommonFit>& before) {
+  CommonSearch found;
   std::vector<States> states;
   std::vector<const Fitter*> fitters;
   for (const Searching& one : specimens) {
@@ -188,7 +188,7 @@ CommonDiscovery discover_together(const std::vector<Member>& members, const Requ
   std::vector<Searching> specimens = analysed(members, request, of_analysis, catalogue, progress, found);
   found.p_before = p_of_alarms(specimens);
   const bool search_pays = request.from_nothing || found.p_before <= request.alpha;
-  Searched searched;
+  CommonSearch searched;
   if (search_pays) {
     if (progress) progress("terms of the energy", 0.5);
     searched = search_in(specimens, request, catalogue, directions, {});
