@@ -9,6 +9,7 @@
 
 #include "support/strip.hpp"
 #include "tunica/detail/solve_strip.hpp"
+#include "tunica/models/model_sum.hpp"
 
 namespace tunica::testing {
 namespace {
@@ -117,6 +118,23 @@ TEST(SymmetricStrip, DerivativesAreThoseOfTheClosedForm) {
     const double factor_l = 2 * (2 * l + 1 / (l * l)), x_l = 2 * l - 2 / (l * l);
     EXPECT_NEAR(out.abscissa_derivative[i], factor_l * w1 + factor * by_x * x_l,
                 1e-11 * (std::abs(factor_l * w1) + std::abs(factor * by_x * x_l)));
+  }
+}
+
+// A sum has no parts. Its base, at the null of what is added, is unstable here, and Newton's method fails on it.
+TEST(SymmetricStrip, IsThatOfTheBaseWhereNothingIsAdded) {
+  const std::shared_ptr<const Model> base = make_model("yeoh");
+  auto added = make_model("neo_hooke");
+  const std::vector<Parameter> own = added->describe().parameters;
+  const ModelSum sum(base, own, 0, std::move(added));
+  const auto strip = make_strip(far_stretches());
+  const Prediction bare = predict(*strip, *base, {106, -4.65, 0.0332});
+  ASSERT_TRUE(bare.status.ok()) << bare.status.reason();
+  for (const bool jacobian : {false, true}) {
+    const Prediction with = predict(*strip, sum, {106, -4.65, 0.0332, 0}, 0, jacobian);
+    ASSERT_TRUE(with.status.ok()) << with.status.reason();
+    for (std::size_t i = 0; i < bare.values.size(); ++i)
+      EXPECT_NEAR(with.values[i], bare.values[i], 1e-12 * std::abs(bare.values[i])) << jacobian;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "tunica/detail/symmetric_strip.hpp"
 
 namespace tunica::python {
 
@@ -123,6 +124,7 @@ bool AddedPythonEnergy::solve_strip(const StripPath& strip, Status& status) cons
   if (strip.parameters[own_] != null_ || !strip.stress_dp.empty() || !description_.principal_axes) return false;
   StripPath bare = strip;
   bare.parameters = strip.parameters.first(own_);
+  if (free_strip::symmetry_of_parts(*base_, bare.parameters) == free_strip::Symmetry::isotropic) return false;
   return base_->solve_strip(bare, status);
 }
 

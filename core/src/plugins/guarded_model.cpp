@@ -106,10 +106,11 @@ GuardedModel::GuardedModel(std::unique_ptr<Model> model, std::string plugin)
 
 GuardedModel::~GuardedModel() { destroy(plugin_, model_); }
 
-/// `outputs` are the spans of the response, in whatever memory; `body` evaluates into them.
+/// `outputs` are the spans of the response, in whatever memory; `body` evaluates into them. A call that is declined has
+/// written nothing, and is no failure.
 template <class Body>
 Status GuardedModel::made(const Call& call, OverrunRecord::Function function, std::span<NamedOutput> outputs,
-                          std::size_t points, const Body& body) const {
+                          std::size_t points, const Body& body, const bool* declined) const {
   const auto attempt = [&] {
     mark(outputs, points);
     const CallScope scope(call);
@@ -117,7 +118,7 @@ Status GuardedModel::made(const Call& call, OverrunRecord::Function function, st
     Status status = contained(plugin_, body);
     if (arithmetic.take_change())
       status = Status::failed(fmt::format("plugin '{}' {}", plugin_, changed_arithmetic));
-    else
+    else if (declined == nullptr || !*declined)
       status = verdict(std::move(status), outputs, plugin_, points);
     if (!status.ok()) last_failed_model() = this;
     return status;
@@ -183,7 +184,7 @@ bool GuardedModel::solve_strip(const StripPath& strip, Status& status) const {
                            {"derivatives by the stretch", strip.stress_by_l},
                            {"lateral derivatives by the stretch", strip.lateral_by_l}};
   bool declined = false;
-  status = made(call, OverrunRecord::Function::solve_strip, outputs, strip.stretch.size(), [&] {
+  const auto solve = [&] {
     StripPath path = strip;
     path.stress = outputs[0].values;
     path.lateral = outputs[1].values;
@@ -193,9 +194,10 @@ bool GuardedModel::solve_strip(const StripPath& strip, Status& status) const {
     path.lateral_by_l = outputs[5].values;
     Status outcome;
     declined = !model_->solve_strip(path, outcome);
-    return declined ? Status::failed("declined") : outcome;
-  });
-  return !declined;
+    return declined ? Status() : outcome;
+  };
+  status = made(call, OverrunRecord::Function::solve_strip, outputs, strip.stretch.size(), solve, &declined);
+  return !declined || !status.ok();
 }
 
 const Model& GuardedModel::elastic() const {

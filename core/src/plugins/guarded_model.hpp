@@ -41,7 +41,7 @@ class GuardedModel final : public Model {
  private:
   template <class Body>
   Status made(const Call& call, OverrunRecord::Function function, std::span<NamedOutput> outputs, std::size_t points,
-              const Body& body) const;
+              const Body& body, const bool* declined = nullptr) const;
 
   std::unique_ptr<Model> model_;
   std::string plugin_;

@@ -93,14 +93,16 @@ inline Status solve_by_batches(const Model& model, const StripPath& path, Scratc
 
 /// Answers for any model with a principal-axes path: by symmetry where that gives the answer, by the model's own solver
 /// where it has one, else by batches. A model without parts that solves its strips itself knows its own symmetry: to
-/// ask for its response would cost a call a strip.
+/// ask for its response would cost a call a strip. It is asked only where the model fails.
 inline Status solve(const Model& model, const StripPath& path, Scratch& scratch) {
   Status status;
   const Symmetry said = symmetry_of_parts(model, path.parameters);
-  if (said != Symmetry::isotropic && model.solve_strip(path, status)) return status;
-  if (said != Symmetry::other && solve_symmetric({model, path.parameters, path.loaded}, path, scratch, status))
-    return status;
-  return solve_by_batches(model, path, scratch);
+  const bool by_model = said != Symmetry::isotropic && model.solve_strip(path, status);
+  if (by_model && (status.ok() || said == Symmetry::other)) return status;
+  Status symmetric;
+  if (said != Symmetry::other && solve_symmetric({model, path.parameters, path.loaded}, path, scratch, symmetric))
+    return symmetric;
+  return by_model ? status : solve_by_batches(model, path, scratch);
 }
 
 }  // namespace tunica::free_strip

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tunica/detail/symmetric_strip.hpp"
 #include "tunica/model.hpp"
 
 namespace tunica {
@@ -77,6 +78,7 @@ class ModelSum final : public Model {
     if (strip.parameters[count_] != null_ || !strip.stress_dp.empty() || !description_.principal_axes) return false;
     StripPath bare = strip;
     bare.parameters = strip.parameters.first(count_);
+    if (free_strip::symmetry_of_parts(*base_, bare.parameters) == free_strip::Symmetry::isotropic) return false;
     return base_->solve_strip(bare, status);
   }
 
