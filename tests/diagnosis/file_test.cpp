@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/assembly.hpp"
+#include "data/header_words.hpp"
 #include "diagnosis/file/inspection.hpp"
 #include "diagnosis/measured.hpp"
 #include "diagnosis/output/outputs.hpp"
@@ -326,7 +327,7 @@ TEST(File, ErrorsOfTheRecordAreCandidatesWhereTheyAreAskedFor) {
 }
 
 TEST(File, HeadersThatContradictTheFileAreSaid) {
-  using diagnosis::words_of_header;
+  using data::words_of_header;
   EXPECT_EQ(words_of_header("Nominal stress [kPa]").measure, "first_piola_kirchhoff");
   EXPECT_EQ(words_of_header("PK2_axial").measure, "second_piola_kirchhoff");
   EXPECT_EQ(words_of_header("Hencky strain").definition, "true_strain");
@@ -343,7 +344,7 @@ TEST(File, HeadersThatContradictTheFileAreSaid) {
   ASSERT_EQ(found.explanation.file.suspect.size(), 1u);
   EXPECT_EQ(found.explanation.file.suspect.front().code, "header_measure");
   EXPECT_THAT(in_one_line(diagnosis::summary(found).plain()),
-              HasSubstr("Suspect: the header 'PK1' of 'circumferential' speaks of \"first_piola_kirchhoff\""));
+              HasSubstr("Suspect: test 'circumferential': the header 'PK1' speaks of \"first_piola_kirchhoff\""));
 }
 
 TEST(File, RowsThatStandInAFileTwiceAreSaid) {

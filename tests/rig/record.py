@@ -65,6 +65,16 @@ assert found(with_data(**FORCE, specimen={"thickness": "1.2 mm", "width": "10 mm
 only("record_size", "the width of test 't' is 1e-07 mm. Hardly a specimen is so small",
      with_data(**FORCE, specimen={"thickness": "1 mm", "width": "0.1 nm"}))
 
+# Headers that speak of another stress, or of another strain, than they are read as.
+plain = (folder / "strip.csv").read_text()
+(folder / "nominal.csv").write_text(plain.replace("stress [kPa]", "engineering stress [kPa]"))
+NOMINAL = {"file": "nominal.csv", "columns": {"stretch": "stretch", "stress": "engineering stress"}}
+only("header_measure", "speaks of \"first_piola_kirchhoff\", and it is read as \"cauchy\"", with_data(**NOMINAL))
+assert found(with_data(**NOMINAL, stress_measure="first_piola_kirchhoff")) == []
+(folder / "hencky.csv").write_text("Hencky strain" + plain[len("stretch"):].replace("\n1.", "\n0."))
+HENCKY = {"file": "hencky.csv", "columns": {"strain": "Hencky strain", "stress": "stress"}}
+only("header_strain", "Map it as \"true_strain\" where the header is right", with_data(**HENCKY))
+
 # Noise.
 only("record_noise", "is 2, which is 200 % of each value. For 2 % write 0.02",
      with_data(noise={"relative": 2, "absolute": "0.1 kPa"}))

@@ -196,6 +196,7 @@ void Builder::add_test(std::size_t number) {
   std::vector<data::Finding> findings = dataset.findings;
   look_at_unloaded_tube(entry, dataset, findings);
   look_at_noise(entry, dataset, findings);
+  look_at_headers(entry, findings);
   for (const data::Finding& finding : findings)
     layout.findings.push_back({finding.kind, fmt::format("test '{}': {}", entry.name, finding.text)});
   for (std::size_t k = 0; k < dataset.sha256.size(); ++k) {

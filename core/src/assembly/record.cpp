@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/header_words.hpp"
 #include "experiment/materials.hpp"
 #include "text/units.hpp"
 
@@ -87,6 +88,23 @@ void look_at_noise(const experiment::TestEntry& entry, const data::Dataset& data
                           fmt::format("the absolute noise of '{}' is {:.3g}, and no value is beyond {:.3g}: so large a "
                                       "noise explains every fit. Is its unit right?",
                                       name, noise.absolute, largest)});
+  }
+}
+
+void look_at_headers(const experiment::TestEntry& entry, std::vector<data::Finding>& findings) {
+  for (const auto& [declared, header] : entry.data.columns) {
+    const data::HeaderWords words = data::words_of_header(header);
+    if (declared.starts_with("stress") && !words.measure.empty() && words.measure != entry.data.stress_measure)
+      findings.push_back({data::FindingKind::header_measure,
+                          fmt::format("the header '{}' speaks of \"{}\", and it is read as \"{}\". Which is it? Write "
+                                      "\"stress_measure\": \"{}\" where the header is right",
+                                      header, words.measure, entry.data.stress_measure, words.measure)});
+    const bool strain = declared.find("strain") != std::string::npos || declared.starts_with("stretch");
+    if (strain && !words.definition.empty() && !declared.starts_with(words.definition))
+      findings.push_back({data::FindingKind::header_strain,
+                          fmt::format("the header '{}' speaks of \"{}\", and the file maps it as \"{}\". Which is it? "
+                                      "Map it as \"{}\" where the header is right",
+                                      header, words.definition, declared, words.definition)});
   }
 }
 

@@ -19,6 +19,9 @@ void look_at_unloaded_tube(const experiment::TestEntry& entry, const data::Datas
 void look_at_noise(const experiment::TestEntry& entry, const data::Dataset& dataset,
                    std::vector<data::Finding>& findings);
 
+/// Headers of columns that speak of another stress measure, or of another strain, than they are read as.
+void look_at_headers(const experiment::TestEntry& entry, std::vector<data::Finding>& findings);
+
 /// Secant stiffness of a strip or a sheet, largest stress over largest stretch less 1, against published ones of the
 /// material: a question where it lies far outside, else empty.
 std::string stiffness_question(const experiment::TestEntry& entry, const data::Dataset& dataset,

@@ -20,9 +20,11 @@ enum class FindingKind {
   record_percent,    ///< percent where a fraction is read
   record_size,       ///< the unloaded tube is not the one of the file
   record_angle,      ///< radians where degrees are read
-  record_noise       ///< a noise as large as what is measured
+  record_noise,      ///< a noise as large as what is measured
+  header_measure,    ///< the header speaks of another stress measure
+  header_strain      ///< the header speaks of another strain
 };
-inline constexpr text::Codes<FindingKind, 12> finding_codes{{{FindingKind::record_broken, "record_broken"},
+inline constexpr text::Codes<FindingKind, 14> finding_codes{{{FindingKind::record_broken, "record_broken"},
                                                              {FindingKind::record_softening, "record_softening"},
                                                              {FindingKind::record_jump, "record_jump"},
                                                              {FindingKind::record_repeated, "record_repeated"},
@@ -33,7 +35,9 @@ inline constexpr text::Codes<FindingKind, 12> finding_codes{{{FindingKind::recor
                                                              {FindingKind::record_percent, "record_percent"},
                                                              {FindingKind::record_size, "record_size"},
                                                              {FindingKind::record_angle, "record_angle"},
-                                                             {FindingKind::record_noise, "record_noise"}}};
+                                                             {FindingKind::record_noise, "record_noise"},
+                                                             {FindingKind::header_measure, "header_measure"},
+                                                             {FindingKind::header_strain, "header_strain"}}};
 
 /// One of them, with the rows, the figures and what to do.
 struct Finding {

@@ -60,10 +60,12 @@ enum class WarningKind {
   record_size,
   record_angle,
   record_noise,
+  header_measure,
+  header_strain,
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 49> warning_codes{
+inline constexpr text::Codes<WarningKind, 51> warning_codes{
     {{WarningKind::misfit_out_of_scale, "misfit_out_of_scale"},
      {WarningKind::no_misfit, "no_misfit"},
      {WarningKind::noise_contradicted, "noise_contradicted"},
@@ -112,6 +114,8 @@ inline constexpr text::Codes<WarningKind, 49> warning_codes{
      {WarningKind::record_size, "record_size"},
      {WarningKind::record_angle, "record_angle"},
      {WarningKind::record_noise, "record_noise"},
+     {WarningKind::header_measure, "header_measure"},
+     {WarningKind::header_strain, "header_strain"},
      {WarningKind::set_up, "set_up"}}};
 
 static_assert(static_cast<std::size_t>(WarningKind::set_up) + 1 == warning_codes.size());

@@ -12,11 +12,4 @@ namespace tunica::diagnosis {
 /// the file declares.
 std::vector<Suspect> inspected(const Evidence& evidence);
 
-/// What a header says against the declaration of its column; nothing where it says nothing of the kind.
-struct HeaderWords {
-  std::string measure;     ///< "cauchy", "first_piola_kirchhoff", "second_piola_kirchhoff" or empty
-  std::string definition;  ///< "true_strain", "green_strain", "strain" or empty
-};
-HeaderWords words_of_header(const std::string& header);
-
 }  // namespace tunica::diagnosis
