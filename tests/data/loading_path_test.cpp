@@ -2,6 +2,9 @@
 // What rows say of the past of a specimen, and rows put in an order of their own.
 #include "data/loading_path.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -71,6 +74,19 @@ TEST(LoadingPath, SortedRowsAreTheSameWhateverTheirOrderWas) {
   EXPECT_EQ(one.file_rows, (std::vector<std::size_t>{0, 4, 3, 1, 2}));
   EXPECT_EQ(other.file_rows, (std::vector<std::size_t>{4, 0, 1, 3, 2}));
   EXPECT_EQ(one.lines, (std::vector<std::size_t>{2, 6, 5, 3, 4}));
+}
+
+// Sorted, loading and unloading would be neighbours, and their difference would look like noise.
+TEST(LoadingPath, RowsThatRunToAndFroStandAsTheyWereMeasured) {
+  const auto is_sorted = [](const std::vector<double>& x) { return std::is_sorted(x.begin(), x.end()); };
+  const auto table = [](const std::vector<int>& steps) {
+    std::string text = "stretch,stress [kPa]\n";
+    for (const int step : steps) text += fmt::format("{},{}\n", 1 + 0.1 * step, 10 * step);
+    return read_strip(text, {}, with(Order::unknown, true)).abscissae.front().second;
+  };
+  EXPECT_FALSE(is_sorted(table({0, 1, 2, 3, 4, 5, 4, 3, 2, 1, 0})));
+  EXPECT_TRUE(is_sorted(table({0, 5, 1, 4, 2, 3, 2, 4, 1, 5, 0}))) << "in any order";
+  EXPECT_TRUE(is_sorted(table({0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4}))) << "a second curve is no way back";
 }
 
 }  // namespace

@@ -193,5 +193,36 @@ TEST(LoadingDirections, AreUpwardsWhereNothingMoves) {
   EXPECT_THAT(loading_directions({1, 1, 1}), ElementsAre(1, 1, 1));
 }
 
+/// What the columns leave of a vector, as a share of it.
+double left_by(const Eigen::MatrixXd& columns, const Eigen::VectorXd& vector) {
+  return (vector - columns * columns.colPivHouseholderQr().solve(vector)).norm() / vector.norm();
+}
+
+// A second cycle that differs from the first is no noise, whatever it looks like.
+TEST(SmoothColumns, LetEachBranchOfLaterCyclesHaveItsOwnShape) {
+  constexpr std::size_t branch = 20;
+  std::vector<double> x;
+  for (std::size_t i = 0; i < 4 * branch; ++i) {
+    const double t = static_cast<double>(i % branch) / branch;
+    x.push_back(1 + ((i / branch) % 2 == 0 ? t : 1 - t));
+  }
+  Eigen::VectorXd bump = Eigen::VectorXd::Zero(4 * branch);
+  // The turning point ends a branch.
+  for (std::size_t i = 2 * branch + 1; i <= 3 * branch; ++i)
+    bump[static_cast<Eigen::Index>(i)] = x[i] * x[i] * x[i] - 1.5;
+  const Eigen::MatrixXd columns = columns_over(x);
+  EXPECT_LT(left_by(columns, bump), 1e-9);
+  EXPECT_LE(columns.cols(), static_cast<Eigen::Index>(2 * branch));
+  x.resize(2 * branch);
+  EXPECT_GT(left_by(columns_over(x), Eigen::VectorXd::Unit(2 * branch, 30)), 0.5) << "a single row is no shape";
+}
+
+// Rows in any order turn at every step: these are no cycles.
+TEST(SmoothColumns, SeeNoBranchesInRowsWithoutOrder) {
+  std::vector<double> x = rising(40);
+  for (std::size_t i = 0; i + 1 < x.size(); i += 2) std::swap(x[i], x[x.size() - 1 - i]);
+  EXPECT_LE(columns_over(x).cols(), static_cast<Eigen::Index>(x.size() / 3));
+}
+
 }  // namespace
 }  // namespace tunica::diagnosis

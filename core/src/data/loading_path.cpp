@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "data/cycles.hpp"
+
 namespace tunica::data {
 namespace {
 
@@ -43,6 +45,18 @@ bool starts_unloading(const std::vector<double>& path, double rest) {
   return moved != distance.end() && *moved < distance.front();
 }
 
+/// Whether the path comes back over several rows, and no branch but the last has fewer. Rows in any other order than
+/// the measured one turn at once; where a second curve begins, the path jumps back.
+bool runs_to_and_fro(const std::vector<double>& path) {
+  constexpr std::size_t several = 5;
+  if (path.empty()) return false;
+  const std::vector<Branch> found = branches_of(path, path.front());
+  const auto is_long = [](const Branch& branch) { return branch.last - branch.first >= several; };
+  return found.size() > 1 && std::all_of(found.begin(), found.end() - 1, is_long) &&
+         std::any_of(found.begin(), found.end(),
+                     [&](const Branch& branch) { return !branch.loading && is_long(branch); });
+}
+
 /// A branch ends at every turning point but the first.
 std::size_t branches(const std::vector<double>& points) { return points.size() < 2 ? 0 : points.size() - 1; }
 
@@ -68,7 +82,7 @@ Past past_of(const Dataset& dataset, const std::vector<Observable>& observables)
 }
 
 void sort_rows(Dataset& dataset) {
-  if (dataset.abscissae.empty()) return;
+  if (dataset.abscissae.empty() || runs_to_and_fro(dataset.abscissae.front().second)) return;
   std::vector<std::pair<std::size_t, const std::vector<double>*>> keys;
   for (const auto& [name, values] : dataset.abscissae) {
     const std::size_t different = std::set<double>(values.begin(), values.end()).size();

@@ -22,7 +22,8 @@ enum class Past {
 Past past_of(const Dataset& dataset, const std::vector<Observable>& observables);
 
 /// Rows in an order that is theirs whatever the order in the file: by their abscissae, those with few different values
-/// first, then by what was measured. `file_rows` says which row of the file each is. Not without an abscissa.
+/// first, then by what was measured. `file_rows` says which row of the file each is. Not without an abscissa, and not
+/// where the rows run to and fro: those stand as they were measured.
 void sort_rows(Dataset& dataset);
 
 /// First, turning and last values of a path; a turn is one by more than a twentieth of the range.

@@ -29,10 +29,25 @@ std::vector<std::pair<std::size_t, std::size_t>> holds(const std::vector<double>
 /// x in [−1, 1] between the ends of a range.
 double between(double x, double low, double high) { return high > low ? 2 * (x - low) / (high - low) - 1 : 0; }
 
+/// [first, end) of the rows between turning points, holds left out. None where the abscissa trembles rather than turns.
+std::vector<std::pair<std::size_t, std::size_t>> branches(const std::vector<int>& directions) {
+  constexpr std::size_t least_rows = 8;  // of a branch, on average
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  for (std::size_t i = 0; i < directions.size();) {
+    std::size_t end = i + 1;
+    while (end < directions.size() && directions[end] == directions[i]) ++end;
+    if (directions[i] != 0) found.emplace_back(i, end);
+    i = end;
+  }
+  if (found.size() * least_rows > directions.size()) found.clear();
+  return found;
+}
+
 class CurveColumns {
  public:
-  CurveColumns(const Curve& curve, Eigen::Index rows, unsigned most)
-      : curve_(curve), rows_(rows), most_(most), left_(curve.abscissa.size() / 3) {}
+  /// `each_branch`: those after the first loading and unloading have shapes of their own too, for half of the rows.
+  CurveColumns(const Curve& curve, Eigen::Index rows, unsigned most, bool each_branch = false)
+      : curve_(curve), rows_(rows), most_(most), left_(curve.abscissa.size() / 3), each_branch_(each_branch) {}
 
   /// Each with its degree.
   std::vector<std::pair<Eigen::VectorXd, unsigned>> all() {
@@ -60,10 +75,30 @@ class CurveColumns {
       }
       for (unsigned degree = 0; degree <= 2; ++degree) add(degree, row, inside);
     }
+    if (each_branch_) add_later_branches(branches(directions));
     return std::move(columns_);
   }
 
  private:
+  /// Cycles differ from one another, in whatever way.
+  void add_later_branches(const std::vector<std::pair<std::size_t, std::size_t>>& all) {
+    const std::size_t n = curve_.abscissa.size();
+    left_ += n / 2 - n / 3;
+    for (unsigned degree = 0; degree <= most_; ++degree)
+      for (std::size_t b = 2; b < all.size(); ++b) {
+        const auto [first, end] = all[b];
+        const auto from = curve_.abscissa.begin() + static_cast<std::ptrdiff_t>(first),
+                   to = curve_.abscissa.begin() + static_cast<std::ptrdiff_t>(end);
+        const auto [low, high] = std::minmax_element(from, to);
+        std::vector<double> inside(n, 0), u(n, 0);
+        for (std::size_t i = first; i < end; ++i) {
+          inside[i] = 1;
+          u[i] = between(curve_.abscissa[i], *low, *high);
+        }
+        add(degree, u, inside);
+      }
+  }
+
   void add(unsigned degree, const std::vector<double>& u, const std::vector<double>& factor) {
     if (left_ == 0) return;
     --left_;
@@ -78,6 +113,7 @@ class CurveColumns {
   Eigen::Index rows_;
   unsigned most_;
   std::size_t left_;  ///< columns that may still be added
+  bool each_branch_;
   std::vector<std::pair<Eigen::VectorXd, unsigned>> columns_;
 };
 
@@ -117,10 +153,12 @@ std::vector<int> loading_directions(const std::vector<double>& abscissa) {
   return direction;
 }
 
-SmoothShapes smooth_shapes(const std::vector<Curve>& curves, Eigen::Index rows, unsigned most) {
+namespace {
+
+SmoothShapes shapes_of(const std::vector<Curve>& curves, Eigen::Index rows, unsigned most, bool each_branch) {
   std::vector<std::pair<Eigen::VectorXd, unsigned>> columns;
   for (const Curve& curve : curves)
-    for (auto& column : CurveColumns(curve, rows, most).all()) columns.push_back(std::move(column));
+    for (auto& column : CurveColumns(curve, rows, most, each_branch).all()) columns.push_back(std::move(column));
   SmoothShapes shapes{Eigen::MatrixXd(rows, static_cast<Eigen::Index>(columns.size())), {}};
   for (std::size_t k = 0; k < columns.size(); ++k) {
     shapes.columns.col(static_cast<Eigen::Index>(k)) = columns[k].first;
@@ -129,8 +167,14 @@ SmoothShapes smooth_shapes(const std::vector<Curve>& curves, Eigen::Index rows, 
   return shapes;
 }
 
+}  // namespace
+
+SmoothShapes smooth_shapes(const std::vector<Curve>& curves, Eigen::Index rows, unsigned most) {
+  return shapes_of(curves, rows, most, false);
+}
+
 Eigen::MatrixXd smooth_columns(const std::vector<Curve>& curves, Eigen::Index rows) {
-  return smooth_shapes(curves, rows, 5).columns;
+  return shapes_of(curves, rows, 5, true).columns;
 }
 
 }  // namespace tunica::diagnosis

@@ -12,12 +12,13 @@ namespace tunica::diagnosis {
 /// Smooth shapes that whatever is no noise may have, curve by curve: Legendre polynomials along the abscissa; where the
 /// curve runs to and fro, the same again times the direction of loading, so that each branch has its own; where the
 /// abscissa is held for long, polynomials in the row. As many as a third of the curve's rows, at most: degree 5, of the
-/// direction 3, of a hold 2.
+/// direction 3, of a hold 2. Where cycles follow one another, each branch after the first two has shapes of its own as
+/// well, all together as many as half of the rows: cycles that differ are no noise.
 ///
 /// A turning point is one that goes back by more than a twentieth of the range: an abscissa that was measured trembles.
 Eigen::MatrixXd smooth_columns(const std::vector<Curve>& curves, Eigen::Index rows);
 
-/// The same shapes up to any degree, and the degree of each.
+/// The same shapes, without those of single branches, up to any degree, and the degree of each.
 struct SmoothShapes {
   Eigen::MatrixXd columns;
   std::vector<double> degree;
