@@ -25,7 +25,8 @@ namespace tunica::comparison {
 namespace {
 
 /// All tests with this model; what a run says beyond that does not enter predictions.
-experiment::RunEntry all_tests_with(const experiment::Experiment& experiment, const std::string& model) {
+experiment::RunEntry all_tests_with(const experiment::Experiment& experiment, std::string model) {
+  if (model.empty() && experiment.models.size() == 1) model = experiment.models.front().name;
   experiment::RunEntry run;
   bool needed = false;
   for (const auto& test : experiment.tests) {
