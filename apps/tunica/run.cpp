@@ -102,20 +102,36 @@ calibration::Certified certify(const GlobalOptions& global, unsigned threads, co
   return {std::move(answer.out), ""};
 }
 
-std::string next_step(const comparison::Summary& summary, const experiment::Experiment& experiment,
-                      const std::string& file, const std::filesystem::path& result) {
+/// Whether a diagnosis of the file would explain this fit: it takes the first run of the model, without constraints.
+bool is_for_diagnosis(const comparison::RunSummary& best, const experiment::Experiment& experiment) {
+  if (!best.size || !best.converged) return false;
+  const bool misses = best.size->rms > best.tolerance.value_or(diagnosis::Tolerance{}.share);
+  if (!misses && !(best.misfit && best.misfit->contradicts())) return false;
+  if (best.stability && !best.stability->imposed.empty()) return false;
+  const std::string model = diagnosis::request_of(experiment).model;
+  const auto diagnosed = std::find_if(experiment.runs.begin(), experiment.runs.end(),
+                                      [&model](const experiment::RunEntry& run) { return run.model == model; });
+  return model == best.model && diagnosed != experiment.runs.end() && diagnosed->tests == best.tests;
+}
+
+std::string next_step(const GlobalOptions& global, const comparison::Summary& summary,
+                      const experiment::Experiment& experiment, const std::string& file,
+                      const std::filesystem::path& result) {
   const auto first = std::find_if(summary.ranking.begin(), summary.ranking.end(),
                                   [](const auto& entry) { return entry.rank.has_value(); });
   if (first == summary.ranking.end())
     return calibration::check_command(experiment, file) + "\n(evaluates the initial point and shows what fails)";
   const comparison::RunSummary& best = summary.runs[first->run];
-  if (best.size && best.size->rms > best.tolerance.value_or(diagnosis::Tolerance{}.share) &&
-      diagnosis::request_of(experiment).model == best.model)
-    return fmt::format("tunica diagnose {}\n(what takes the misfit of {} of the range)", file,
+  const auto spoken = [&global](std::vector<std::string> words) {
+    const auto plugins = plugin_words(global);
+    words.insert(words.end(), plugins.begin(), plugins.end());
+    return text::quoted(words);
+  };
+  if (is_for_diagnosis(best, experiment))
+    return fmt::format("{}\n(what takes the misfit of {} of the range)", spoken({"tunica", "diagnose", file}),
                        text::percent(best.size->rms));
-  return fmt::format(
-      "tunica simulate {} --model {} --parameters {} -o FOLDER\n(the best fit as curves, in the form of the data)",
-      file, best.model, result.string());
+  return fmt::format("{} -o FOLDER\n(the best fit as curves, in the form of the data)",
+                     spoken({"tunica", "simulate", file, "--model", best.model, "--parameters", result.string()}));
 }
 
 calibration::Options options_of(const GlobalOptions& global, const RunOptions& options, const Session& session) {
@@ -147,14 +163,15 @@ calibration::Options options_of(const GlobalOptions& global, const RunOptions& o
   return result;
 }
 
-void print(const calibration::Outcome& outcome, const experiment::Experiment& experiment, const std::string& file) {
+void print(const GlobalOptions& global, const calibration::Outcome& outcome, const experiment::Experiment& experiment,
+           const std::string& file) {
   const auto& runs = outcome.summary.runs;
   answer("{}, seed {}, tunica {}\n\n{}", data::excerpt(outcome.summary.name), experiment.seed,
          outcome.provenance.version, comparison::ranking_table(outcome.summary).shown_on(answer_descriptor()));
   if (std::none_of(runs.begin(), runs.end(), [](const auto& entry) { return entry.has_result; }))
     say_error(fmt::format("no evaluation succeeded; the first reason: {}", runs.front().status.reason()));
   answer("\nReport:  {}\nResults: {}\n{}\n", outcome.report.string(), outcome.result.string(),
-         text::hanging("Next:    ", next_step(outcome.summary, experiment, file, outcome.result)));
+         text::hanging("Next:    ", next_step(global, outcome.summary, experiment, file, outcome.result)));
 }
 
 /// What a process before this one has begun is resumed. A shard takes up its own folder by itself.
@@ -209,7 +226,7 @@ int run(const GlobalOptions& global, const RunOptions& asked) {
     case calibration::Outcome::Ending::finished:
       break;
   }
-  print(outcome, experiment, options.file);
+  print(global, outcome, experiment, options.file);
   return outcome.sound() ? done : not_converged;
 }
 

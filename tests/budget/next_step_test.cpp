@@ -7,45 +7,58 @@
 namespace tunica::budget {
 namespace {
 
+using diagnosis::ReasonKind;
 using diagnosis::Verdict;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using Lack = Budget::Lack;
 
 struct NextStep : ::testing::Test {
   NextStep() {
-    budget.base.rms = 0.08;
+    budget.base = {0.08, 0.09};
     budget.tolerance.share = 0.02;
+  }
+  [[nodiscard]] std::string after(Verdict verdict, ReasonKind reason = ReasonKind::unlisted_misfit) const {
+    diagnosis::Explanation explanation;
+    explanation.verdict = verdict;
+    explanation.reasons = {{reason, ""}};
+    return next_step(budget, explanation);
   }
   Budget budget;
 };
 
 TEST_F(NextStep, IsAskedOfTheFileFirst) {
-  budget.not_looked_for = {{"viscoelasticity", true}};
-  EXPECT_EQ(next_step(budget, Verdict::leading), "Map a time column: then viscoelasticity can be tried.");
-  budget.not_looked_for = {{"permanent_set", false}, {"stress_softening", false}};
-  EXPECT_EQ(next_step(budget, Verdict::indistinguishable),
+  budget.not_looked_for = {{"viscoelasticity", Lack::clock}};
+  EXPECT_EQ(after(Verdict::leading), "Map a time column: then viscoelasticity can be tried.");
+  budget.not_looked_for = {{"permanent_set", Lack::order}, {"stress_softening", Lack::order}};
+  EXPECT_EQ(after(Verdict::indistinguishable),
             "Say in which order the rows were measured (\"order\"): then permanent_set and stress_softening can be "
             "tried.");
-  budget.not_looked_for = {{"viscoelasticity", true}, {"stress_softening", false}};
-  EXPECT_THAT(next_step(budget, Verdict::unknown),
-              StartsWith("Say in which order the rows were measured (\"order\"), or map a time column: then "
-                         "viscoelasticity and stress_softening can be tried. Measure a test again"));
+  budget.not_looked_for = {{"viscoelasticity", Lack::clock}, {"stress_softening", Lack::order}};
+  EXPECT_THAT(after(Verdict::unknown),
+              StartsWith("Say in which order the rows were measured (\"order\"): then stress_softening can be tried. "
+                         "Map a time column: then viscoelasticity can be tried as well. Measure a test again"));
+  budget.not_looked_for = {{"stress_softening", Lack::loading}};
+  EXPECT_THAT(after(Verdict::leading), StartsWith("Record the loading before the first row too"));
 }
 
-TEST_F(NextStep, OfAnUnknownCauseDependsOnWhatIsLeft) {
-  EXPECT_THAT(next_step(budget, Verdict::unknown), EndsWith("asks for another base model."));
-  budget.base.rms = 0.01;
-  EXPECT_THAT(next_step(budget, Verdict::unknown), HasSubstr("good enough for this tolerance"));
+TEST_F(NextStep, OfAnUnlistedMisfitDependsOnWhatIsLeft) {
+  EXPECT_THAT(after(Verdict::unknown), EndsWith("asks for another base model."));
+  budget.base = {0.01, 0.03};
+  EXPECT_THAT(after(Verdict::unknown), EndsWith("asks for another base model."));
+  budget.base = {0.01, 0.015};
+  EXPECT_THAT(after(Verdict::unknown), HasSubstr("good enough for this tolerance"));
   budget.rough = true;
-  EXPECT_THAT(next_step(budget, Verdict::unknown), HasSubstr("twice on one specimen"));
+  EXPECT_THAT(after(Verdict::unknown), HasSubstr("twice on one specimen"));
 }
 
 TEST_F(NextStep, IsNotAskedForWhereNothingIsOpen) {
-  EXPECT_EQ(next_step(budget, Verdict::leading), "");
-  budget.not_looked_for = {{"viscoelasticity", true}};
+  EXPECT_EQ(after(Verdict::leading), "");
+  EXPECT_EQ(after(Verdict::unknown, ReasonKind::lost_stability), "");
+  budget.not_looked_for = {{"viscoelasticity", Lack::clock}};
   for (const Verdict verdict : {Verdict::nothing_detected, Verdict::named, Verdict::suspect_data, Verdict::discovered})
-    EXPECT_EQ(next_step(budget, verdict), "");
+    EXPECT_EQ(after(verdict), "");
 }
 
 }  // namespace

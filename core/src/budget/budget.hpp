@@ -45,9 +45,15 @@ struct Budget {
   std::string anisotropy;              ///< what the data say of directions that the base lacks; empty: nothing
   std::string same_model;              ///< the registered model that the base with its causes is; empty: none
   std::vector<std::string> same_with;  ///< those causes
+  /// What the data lack for a mechanism to be tried.
+  enum class Lack {
+    clock,   ///< there is no time
+    order,   ///< nobody says in which order the rows were measured
+    loading  ///< the first rows lie far from rest
+  };
   struct Untried {
     std::string id;
-    bool no_clock;  ///< there is no time; else nobody says in which order rows were measured
+    Lack lack;
   };
   std::vector<Untried> not_looked_for;    ///< mechanisms that could be the cause
   std::shared_ptr<const Mixture> fitted;  ///< all steps; null where there are none

@@ -11,38 +11,55 @@
 namespace tunica::budget {
 namespace {
 
+using diagnosis::ReasonKind;
 using diagnosis::Verdict;
+using Lack = Budget::Lack;
 
-/// "Say when the rows were measured (a time column), or in which order ("order"): then creep can be tried."
-std::string what_the_file_lacks(const Budget& budget) {
-  if (budget.not_looked_for.empty()) return "";
+std::vector<std::string> that_lack(const Budget& budget, Lack lack) {
   std::vector<std::string> ids;
-  for (const Budget::Untried& one : budget.not_looked_for) ids.push_back(one.id);
-  const bool clock = std::any_of(budget.not_looked_for.begin(), budget.not_looked_for.end(),
-                                 [](const Budget::Untried& one) { return one.no_clock; });
-  const bool order = std::any_of(budget.not_looked_for.begin(), budget.not_looked_for.end(),
-                                 [](const Budget::Untried& one) { return !one.no_clock; });
-  const char* const what = !order   ? "Map a time column"
-                           : !clock ? "Say in which order the rows were measured (\"order\")"
-                                    : "Say in which order the rows were measured (\"order\"), or map a time column";
-  return fmt::format("{}: then {} can be tried.", what, text::joined(ids));
+  for (const Budget::Untried& one : budget.not_looked_for)
+    if (one.lack == lack) ids.push_back(one.id);
+  return ids;
+}
+
+/// A time column gives the order of the rows as well.
+std::string what_the_file_lacks(const Budget& budget) {
+  const std::vector<std::string> clock = that_lack(budget, Lack::clock), order = that_lack(budget, Lack::order),
+                                 loading = that_lack(budget, Lack::loading);
+  std::vector<std::string> sentences;
+  if (!order.empty())
+    sentences.push_back(fmt::format("Say in which order the rows were measured (\"order\"): then {} can be tried.",
+                                    text::joined(order)));
+  if (!clock.empty())
+    sentences.push_back(fmt::format("Map a time column: then {} can be tried{}.", text::joined(clock),
+                                    order.empty() ? "" : " as well"));
+  if (!loading.empty())
+    sentences.push_back(
+        fmt::format("Record the loading before the first row too: then {} can be tried.", text::joined(loading)));
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
+  return text;
 }
 
 std::string what_is_open(const Budget& budget) {
-  if (budget.rough) return "Measure a test twice on one specimen: what does not come back is noise.";
-  if (budget.base.rms <= budget.tolerance.share)
+  if (budget.rough) return "Measure a test twice on one specimen: what does not come back is noise, or softening.";
+  if (budget.base.upper <= budget.tolerance.share)
     return "The base is good enough for this tolerance; state a smaller one to go on.";
-  return "Measure a test again with the specimen mounted anew: a misfit that comes back is the material's, and asks "
-         "for another base model.";
+  return "Measure a test again with the specimen mounted anew: a misfit that comes back is not of the mounting, but "
+         "the material's or a steady error of the rig. The first asks for another base model.";
 }
 
 }  // namespace
 
-std::string next_step(const Budget& budget, Verdict verdict) {
-  const bool open = verdict == Verdict::unknown;
-  if (!open && verdict != Verdict::leading && verdict != Verdict::indistinguishable) return "";
+std::string next_step(const Budget& budget, const diagnosis::Explanation& explanation) {
+  const Verdict verdict = explanation.verdict;
+  if (verdict != Verdict::unknown && verdict != Verdict::leading && verdict != Verdict::indistinguishable) return "";
   std::string text = what_the_file_lacks(budget);
-  if (open) text += (text.empty() ? "" : " ") + what_is_open(budget);
+  // Other reasons have a next step of their own, or none.
+  const bool unlisted =
+      std::any_of(explanation.reasons.begin(), explanation.reasons.end(),
+                  [](const diagnosis::Reason& reason) { return reason.kind == ReasonKind::unlisted_misfit; });
+  if (verdict == Verdict::unknown && unlisted) text += (text.empty() ? "" : " ") + what_is_open(budget);
   return text;
 }
 

@@ -106,7 +106,7 @@ std::string unknown_words(const Budget& budget) {
   if (budget.rough)
     return fmt::format(
         "the base {}, and what the best cause leaves is rougher than a smooth misfit: the noise "
-        "is larger than it is said to be, or a cause with fine structure is not listed",
+        "is larger than it is taken here, or a cause with fine structure is not listed",
         text::misses_by(budget.base.rms));
   std::string text = "the base " + text::misses_by(budget.base.rms);
   if (budget.base.rms <= budget.tolerance.share)
@@ -173,6 +173,15 @@ void ask_of_the_file(const Budget& budget, diagnosis::Diagnosis& d) {
        fmt::format("is what the file says so? If {}, {} of the misfit is gone, and no cause takes as much; try {}",
                    budget.of_file.sentence, percent(budget.of_file.share), budget.of_file.mend)},
       {ReasonKind::unlisted_misfit, unknown_words(budget)}};
+}
+
+/// The best mechanism leaves more than the terms do: what was said of it is taken back. What concerns the data stays.
+void claim_terms_only(diagnosis::Diagnosis& d) {
+  withdraw_causes(d);
+  std::erase_if(d.explanation.reasons, [](const diagnosis::Reason& reason) {
+    return reason.kind != ReasonKind::terms_discovered && reason.kind != ReasonKind::anisotropy_seen &&
+           reason.kind != ReasonKind::gross_rows;
+  });
 }
 
 bool only_mechanisms(const Mixture& mixture) {
@@ -257,7 +266,8 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
 diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experiment& experiment,
                                      const plugins::Catalogue& catalogue, diagnosis::Diagnosis diagnosis) {
   diagnosis = judged(budget, experiment, catalogue, std::move(diagnosis));
-  if (std::string first = next_step(budget, diagnosis.explanation.verdict); !first.empty()) {
+  if (diagnosis.explanation.verdict == Verdict::discovered) claim_terms_only(diagnosis);
+  if (std::string first = next_step(budget, diagnosis.explanation); !first.empty()) {
     auto& next = diagnosis.prospects.next;
     if (!next) next.emplace();
     next->description = next->description.empty() ? first : first + ' ' + next->description;

@@ -155,9 +155,11 @@ std::string lacking_words(const Judgement& judgement, const std::vector<KindPoin
     if (const double p = probability_of_invariant(judgement, *kind); p >= one_invariant)
       sure.push_back(kind);
     else
-      open.push_back(fmt::format("with probability {:.2f}, {}", p, words_of({kind})));
+      open.push_back(fmt::format("{} {:.2f}", words_of({kind}), p));
   if (sure.empty() || open.empty()) return words_of(kinds);
-  return fmt::format("{} and, {}", words_of(sure), fmt::join(open, " and, "));
+  return fmt::format("{} and {} of which the form is open (likeliest {})", words_of(sure),
+                     open.size() == 1 ? "one more term" : fmt::format("{} more terms", open.size()),
+                     fmt::join(open, ", "));
 }
 
 Judgement judge(const Findings& found) {

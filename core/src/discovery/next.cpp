@@ -48,15 +48,15 @@ std::string next_experiment(const diagnosis::Inquiry& inquiry, const Discovery& 
   std::string words;
   for (const SetFit* set : rivals) {
     fitted.push_back({set->set->assembly(), diagnosis::all_variables(set->set->assembly()), set->fit});
-    words += (words.empty() ? "" : "; ") + words_of(set->kinds);
+    words += (words.empty() ? "" : ", or ") + words_of(set->kinds);
   }
   inquiry.report("the next experiment", 0.95);
   const auto best = diagnosis::separating_design(inquiry, found.analysis.evidence, fitted);
   if (!best)
-    return fmt::format("No strip, sheet or inflation of the library tells these apart in {} repeats: {}.",
+    return fmt::format("No strip, sheet or inflation of the library tells in {} repeats whether the energy has {}.",
                        diagnosis::most_repeats, words);
-  return fmt::format("{}, {}, tells these apart; they differ by {:.1f} σ there: {}.", best->design,
-                     best->repeats == 1 ? "once" : fmt::format("{} times", best->repeats), best->sigmas, words);
+  return fmt::format("{}, {}, tells whether the energy has {}; these differ by {:.1f} σ there.", best->design,
+                     best->repeats == 1 ? "once" : fmt::format("{} times", best->repeats), words, best->sigmas);
 }
 
 }  // namespace tunica::discovery

@@ -39,8 +39,9 @@ std::string verdict_words(const Json& diagnosis) {
   if (verdict == "named")
     return fmt::format("Named: the misfit is consistent with {}.", text::joined(named_causes(diagnosis)));
   const bool unlisted = member(diagnosis, "unlisted") == true;
-  if (verdict == "indistinguishable" && word(member(diagnosis, "file"), "standing") == "near")
-    return fmt::format("Indistinguishable: {}.", reasons);
+  const bool asks_the_file = word(member(diagnosis, "file"), "standing") == "near" ||
+                             std::find(codes.begin(), codes.end(), "file_as_likely") != codes.end();
+  if (verdict == "indistinguishable" && asks_the_file) return fmt::format("Indistinguishable: {}.", reasons);
   if (verdict == "indistinguishable" && unlisted && list(diagnosis, "explanations").size() < 2)
     return fmt::format("Indistinguishable: {} together, or an effect that the catalogue does not list. {}.",
                        text::joined(named_causes(diagnosis)), reasons);
@@ -57,25 +58,30 @@ std::string verdict_words(const Json& diagnosis) {
     return sentences.empty() ? "One cause leads." : sentences;
   }
   if (verdict == "discovered") {
-    const Json& all = list(diagnosis, "reasons");
     return fmt::format("Discovered: {}. No mechanism of the catalogue explains it.",
-                       all.empty() ? "terms of the energy" : all.front().get<std::string>());
+                       reasons.empty() ? "terms of the energy" : reasons);
   }
   if (verdict == "suspect_data") return fmt::format("Suspect data: {}.", reasons);
   if (verdict == "unknown") return fmt::format("Unknown: something is wrong, and {}.", reasons);
   return verdict;
 }
 
+/// "tau = 12 s (10 … 14)"
+std::string amplitude_words(const Json& one) {
+  std::string text = fmt::format("{} = {}", word(one, "name"), amount(number(one, "value"), word(one, "unit")));
+  if (const Json& interval = member(one, "ci95"); interval.is_array() && interval.size() == 2)
+    text += fmt::format(" ({} … {})", figure(interval[0].is_number() ? interval[0].get<double>() : NAN),
+                        figure(interval[1].is_number() ? interval[1].get<double>() : NAN));
+  return text;
+}
+
 /// "fibre_dispersion of the material: 0.0165 (0.0135 … 0.0196), probability 0.997". No probability where it is not
 /// believed, or where the causes leave more than noise: it is that of one among those that were tried.
 std::string cause_words(const Json& cause, bool clean) {
   const Json& amplitude = member(cause, "amplitude");
-  const std::string unit = word(amplitude, "unit");
-  std::string text = fmt::format("{}{}: {} = {}", word(cause, "id"), place_words(member(cause, "target")),
-                                 word(amplitude, "name"), amount(number(amplitude, "value"), unit));
-  if (const Json& interval = member(amplitude, "ci95"); interval.is_array() && interval.size() == 2)
-    text += fmt::format(" ({} … {})", figure(interval[0].is_number() ? interval[0].get<double>() : NAN),
-                        figure(interval[1].is_number() ? interval[1].get<double>() : NAN));
+  std::string text =
+      fmt::format("{}{}: {}", word(cause, "id"), place_words(member(cause, "target")), amplitude_words(amplitude));
+  for (const Json& one : list(cause, "nuisance")) text += ", " + amplitude_words(one);
   if (member(amplitude, "plausible") == false) return text + ", which is implausible";
   if (!clean) return text;
   return text + fmt::format(", probability {}", share(number(cause, "probability")));
@@ -124,9 +130,10 @@ std::vector<std::string> next_words(const Json& diagnosis, const Json& discovery
       text += fmt::format(" Repeats: {}.", figure(repeats));
     lines.push_back(text::capitalised(std::move(text), words(list(next, "separates"))));
   }
-  if (const std::string file = word(member(diagnosis, "extension"), "experiment"); !file.empty())
-    lines.push_back(fmt::format("tunica run {} fits the model with {} added.", file,
-                                verdict == "discovered" ? "the terms" : "the cause"));
+  if (verdict == "discovered")
+    lines.emplace_back("tunica run extended.json fits the model with the terms added.");
+  else if (const std::string file = word(member(diagnosis, "extension"), "experiment"); !file.empty())
+    lines.push_back(fmt::format("tunica run {} fits the model with the cause added.", file));
   if (lines.empty() && verdict == "nothing_detected")
     lines.emplace_back("The fitted parameters can be used. Reach lists what could still hide below the noise.");
   return lines;
@@ -155,15 +162,12 @@ void add_verdict(Page& page, const Folder& folder) {
   for (const Json& misfit : list(diagnosis, "misfit"))
     where.push_back(fmt::format("{}, {}: {}", word(misfit, "test"), word(misfit, "channel"), word(misfit, "where")));
   const bool clean = word(diagnosis, "remainder") != "not_clean";
-  // Where terms are discovered, no mechanism is claimed.
-  const bool discovered = verdict == "discovered";
-  const Json claimed = discovered ? Json::array() : list(diagnosis, "causes");
-  for (const Json& cause : claimed) causes.push_back(cause_words(cause, clean));
+  for (const Json& cause : list(diagnosis, "causes")) causes.push_back(cause_words(cause, clean));
   const double p = number(diagnosis, "p_value");
   std::vector<std::string> sure{fmt::format("Noise alone would look like this with {}. Below {} counts as detected.",
                                             chance(p, member(diagnosis, "p_value_is_bound") == true),
                                             figure(number(diagnosis, "alpha")))};
-  if (const double after = number(diagnosis, "p_after"); std::isfinite(after) && !discovered) {
+  if (const double after = number(diagnosis, "p_after"); std::isfinite(after) && verdict != "discovered") {
     const std::string remainder = word(diagnosis, "remainder");
     sure.push_back(fmt::format("With the cause added, noise alone would leave this much with {}{}.", chance(after),
                                remainder == "clean"       ? "; nothing is left to explain"
@@ -177,10 +181,10 @@ void add_verdict(Page& page, const Folder& folder) {
                    {"How sure", sure},
                    {"Where", where},
                    {causes.size() > 1 ? "Causes" : "Cause", causes},
-                   {"Gain", one(discovered ? "" : gain_words(diagnosis))},
+                   {"Gain", one(gain_words(diagnosis))},
                    {"What to do next", next_words(diagnosis, member(folder.result(), "discovery"))}});
   std::set<std::string> explained;  // of several of a kind, the first stands for all
-  for (const Json& cause : claimed)
+  for (const Json& cause : list(diagnosis, "causes"))
     if (const std::string text = word(cause, "explanation");
         !text.empty() && explained.insert(word(cause, "id")).second)
       page.paragraph(text);

@@ -244,6 +244,8 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
     if (groups.size() > 1) page.heading(fmt::format("Best of {}", order.title(group)));
     const auto rivals =
         std::count_if(order.runs().begin(), order.runs().end(), [&](const auto& run) { return run.group == group; });
+    const std::string model = word(*first->run, "model");
+    const bool layered = model.empty() || model.find('+') != std::string::npos;
     const Doubts doubts = doubts_of(result, word(*first->run, "run"), best);
     std::vector<std::string> names;
     for (const auto& entry : member(best, "parameters").items()) names.push_back(entry.key());
@@ -256,7 +258,8 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
           {doubts.wrong.empty() ? "Nothing was found."
                                 : text::capitalised(fmt::format("{}.", fmt::join(doubts.wrong, "; ")), names)}},
          {"What to do next",
-          {doubts.next.empty() ? "Use it: tunica simulate EXPERIMENT --parameters result.json"
+          {doubts.next.empty() ? fmt::format("Use it: tunica simulate EXPERIMENT{} --parameters result.json -o FOLDER",
+                                             layered ? "" : " --model " + model)
                                : fmt::format("{}", fmt::join(doubts.next, " "))}}});
   }
   if (std::none_of(order.runs().begin(), order.runs().end(), [](const auto& run) { return run.rank > 0; }))

@@ -49,6 +49,9 @@ json budget_json(const Budget& budget) {
                  {"channels", comparison::channel_sizes_json(budget.base_channels)},
                  {"rest", comparison::channel_sizes_json(budget.rest_channels)}};
   if (!budget.same_model.empty()) result["same_model"] = {{"type", budget.same_model}, {"with", budget.same_with}};
+  json untried = json::array();
+  for (const Budget::Untried& one : budget.not_looked_for) untried.push_back(one.id);
+  if (!untried.empty()) result["not_looked_for"] = std::move(untried);
   if (budget.contenders.empty()) return result;
   if (budget.lead)
     result["lead"] = {{"id", budget.lead->id},
@@ -58,9 +61,6 @@ json budget_json(const Budget& budget) {
   result["alone"] = std::move(contenders);
   result["unlisted_probability"] = budget.unlisted_probability;
   result["rough"] = budget.rough;
-  json untried = json::array();
-  for (const Budget::Untried& one : budget.not_looked_for) untried.push_back(one.id);
-  result["not_looked_for"] = std::move(untried);
   return result;
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,14 +23,17 @@ std::string added(const std::vector<Step>& steps, std::size_t which) {
 
 /// "viscoelasticity (needs a time column); stress_softening (needs the order of the rows)"
 std::string untried(const std::vector<Budget::Untried>& all) {
+  using Lack = Budget::Lack;
+  constexpr std::array<std::pair<Lack, const char*>, 3> needs{
+      {{Lack::clock, "needs a time column"},
+       {Lack::order, "needs the order of the rows"},
+       {Lack::loading, "needs the loading before the first row"}}};
   std::vector<std::string> parts;
-  for (const bool no_clock : {true, false}) {
+  for (const auto& [lack, what] : needs) {
     std::vector<std::string> ids;
     for (const Budget::Untried& one : all)
-      if (one.no_clock == no_clock) ids.push_back(one.id);
-    if (!ids.empty())
-      parts.push_back(fmt::format("{} ({})", fmt::join(ids, ", "),
-                                  no_clock ? "needs a time column" : "needs the order of the rows"));
+      if (one.lack == lack) ids.push_back(one.id);
+    if (!ids.empty()) parts.push_back(fmt::format("{} ({})", fmt::join(ids, ", "), what));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -88,8 +93,7 @@ text::StyledText summary(const Budget& budget, const std::string& base) {
                                  percent(one.share), one.belief == Belief::beyond ? " (beyond belief)" : ""));
   }
   if (!others.empty()) lines += text::hanging("Alone:    ", fmt::format("{}", fmt::join(others, ", "))) + '\n';
-  if (!budget.not_looked_for.empty() && !budget.contenders.empty())
-    lines += text::hanging("Untried:  ", untried(budget.not_looked_for)) + '\n';
+  if (!budget.not_looked_for.empty()) lines += text::hanging("Untried:  ", untried(budget.not_looked_for)) + '\n';
   return lines;
 }
 

@@ -27,16 +27,9 @@ std::string p_words(const Alarm& alarm) {
   return p < 1e-4 ? "p < 0.0001" : fmt::format("p {} {:.2g}", alarm.p_is_bound() ? "≤" : "=", p);
 }
 
-/// What a reason says of the mechanisms that were tried, and not of the data.
-bool is_of_catalogue(ReasonKind kind) {
-  return kind != ReasonKind::terms_discovered && kind != ReasonKind::anisotropy_seen && kind != ReasonKind::gross_rows;
-}
-
-/// Where terms are discovered, what is not said of them or of the data is left to result.json.
 std::string joined_reasons(const Explanation& explanation) {
   std::vector<std::string> all;
-  for (const Reason& reason : explanation.reasons)
-    if (explanation.verdict != Verdict::discovered || !is_of_catalogue(reason.kind)) all.push_back(reason.text);
+  for (const Reason& reason : explanation.reasons) all.push_back(reason.text);
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
@@ -58,11 +51,10 @@ std::string verdict_line(const Diagnosis& d) {
       return fmt::format("NAMED: consistent with {}", fmt::join(ids, " and "));
     }
     case Verdict::indistinguishable:
+      if (claim.ambiguity_set.empty()) return "INDISTINGUISHABLE: " + joined_reasons(explanation);
       if (explanation.file.standing == FileStanding::near)
-        return claim.ambiguity_set.empty()
-                   ? "INDISTINGUISHABLE: " + joined_reasons(explanation)
-                   : fmt::format("INDISTINGUISHABLE: what the file says may not be so, or it is {}",
-                                 fmt::join(explanations(claim), ", or "));
+        return fmt::format("INDISTINGUISHABLE: what the file says may not be so, or it is {}",
+                           fmt::join(explanations(claim), ", or "));
       if (explanation.unlisted && claim.ambiguity_set.size() == claim.named)
         return fmt::format("INDISTINGUISHABLE: {} together, or one effect that the catalogue does not list",
                            fmt::join(claim.ambiguity_set, " and "));
@@ -338,18 +330,16 @@ text::StyledText summary(const Diagnosis& d, const text::StyledText& below_verdi
   if (const assembly::Misfit misfit = stated_misfit(d.analysis.evidence); wrong && misfit.judged())
     line("Misfit:   ", assembly::in_words(misfit, "stated"));
   if (wrong) line("Wrong:    ", misfit_line(explanation.misfit));
-  // Where terms are discovered, they have lines of their own, and no mechanism is claimed.
-  const bool by_mechanisms = explanation.verdict != Verdict::discovered;
-  for (std::size_t k = 0; by_mechanisms && k < std::min(claim.named, claim.causes.size()); ++k)
+  for (std::size_t k = 0; k < std::min(claim.named, claim.causes.size()); ++k)
     line("Cause:    ", cause_line(claim.causes[k], explanation));
   for (const Cause& row : explanation.left_out) line("Cause:    ", cause_line(row, explanation));
   // The budget has what else there is beside what leads.
   const bool leads = explanation.verdict == Verdict::leading;
-  if (wrong && by_mechanisms && !leads && !claim.causes.empty()) line("Or else:  ", rivals_line(explanation));
+  if (wrong && !leads && !claim.causes.empty()) line("Or else:  ", rivals_line(explanation));
   if (wrong) line("Left out: ", not_tried(d.prospects.detectable));
-  if (by_mechanisms && d.prospects.gain) line("Gain:     ", gain_line(*d.prospects.gain, claim.named > 1));
+  if (d.prospects.gain) line("Gain:     ", gain_line(*d.prospects.gain, claim.named > 1));
   line("Material: ", material_line(explanation.admissibility));
-  if (by_mechanisms && d.prospects.next) line("Next:     ", d.prospects.next->description);
+  if (d.prospects.next) line("Next:     ", d.prospects.next->description);
   if (!wrong) line("May hide: ", could_hide(d.prospects.detectable));
   line("Untold:   ", untellable_line(explanation.file));
   return lines;

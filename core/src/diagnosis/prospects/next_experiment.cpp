@@ -23,16 +23,30 @@ std::string isolating(const Inquiry& inquiry, const std::vector<std::string>& id
   return fmt::format("{}", fmt::join(switches, "; "));
 }
 
+/// Those of a claim that the data leave open, and errors of the rig, which a look at the rig settles.
+std::vector<std::string> unconfirmed(const Claim& claim) {
+  constexpr double sure = 0.99;
+  std::vector<std::string> ids;
+  for (const std::string& id : claim.ambiguity_set) {
+    const bool open = std::any_of(claim.causes.begin(), claim.causes.end(), [&id](const Cause& cause) {
+      return cause.id == id && (cause.probability < sure || cause.group == CauseGroup::rig);
+    });
+    if (open) ids.push_back(id);
+  }
+  return ids;
+}
+
 /// With one cause.
-NextExperiment confirming(const Inquiry& inquiry, const Evidence& evidence, const Claim& claim) {
+std::optional<NextExperiment> confirming(const Inquiry& inquiry, const Evidence& evidence, const Claim& claim) {
   NextExperiment next;
   next.separates = claim.ambiguity_set;
-  next.description = fmt::format("To confirm {}.", isolating(inquiry, claim.ambiguity_set));
+  if (const std::vector<std::string> open = unconfirmed(claim); !open.empty())
+    next.description = fmt::format("To confirm {}.", isolating(inquiry, open));
   if (const auto more = determining_experiment(inquiry, evidence, claim.rivals.front())) {
-    next.description += fmt::format(" {}", more->description);
+    next.description += (next.description.empty() ? "" : " ") + more->description;
     next.repeats = more->repeats;
   }
-  return next;
+  return next.description.empty() ? std::nullopt : std::optional(next);
 }
 
 /// With several.
