@@ -27,8 +27,6 @@ struct InvariantOf {
 };
 /// An invariant at given parameters.
 using Invariant = InvariantOf<double>;
-/// Whether it is an invariant of isotropy, I1 and I2 alone.
-inline bool is_isotropic(const Invariant& x) { return x.fibre == 0 && x.normal == 0 && x.across == 0; }
 
 /// The response ψ(x; p) of a part at n values of x.
 ///

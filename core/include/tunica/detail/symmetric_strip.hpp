@@ -20,6 +20,9 @@ namespace tunica::free_strip {
 /// What the two lateral axes may differ by: rounding.
 inline constexpr double alike = 1e-12;
 
+/// Whether an invariant has no direction: it is made of I1 and I2 alone.
+inline bool is_isotropic(const Invariant& x) { return x.fibre == 0 && x.normal == 0 && x.across == 0; }
+
 /// What a model says of its own symmetry.
 enum class Symmetry {
   isotropic,  ///< its parts depend on I1 and I2 alone

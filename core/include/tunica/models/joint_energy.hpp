@@ -9,6 +9,7 @@
 #include "tunica/detail/joint_lanes.hpp"
 #include "tunica/detail/joint_strip.hpp"
 #include "tunica/detail/strip_solver.hpp"
+#include "tunica/detail/symmetric_strip.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica {
@@ -64,7 +65,7 @@ class JointEnergy final : public Model {
 
   bool solve_strip(const StripPath& strip, Status& status) const override {
     const auto invariants = Energy::template invariants<double>(strip.parameters);
-    if (std::all_of(invariants.begin(), invariants.end(), is_isotropic)) return false;
+    if (std::all_of(invariants.begin(), invariants.end(), free_strip::is_isotropic)) return false;
     status = hyperelastic::solve_strip<joint::Strip<Energy>>(*this, strip, strip, !strip.stress_dp.empty());
     return true;
   }
