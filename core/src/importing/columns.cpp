@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "data/header_words.hpp"
 #include "data/row_choice.hpp"
 #include "data/table_place.hpp"
 #include "data/units.hpp"
@@ -63,25 +64,6 @@ std::string direction_in(const Words& words) {
     return "circumferential";
   if (has_any(words, {"axial", "longitudinal", "=long", "=y", "=yy", "=eyy", "=fy", "=uy", "=22", "=vertical"}))
     return "axial";
-  return {};
-}
-
-std::string strain_measure(const Words& words) {
-  if (has_any(words, {"=true", "=log", "logarithmic", "hencky", "natural", "=ln", "=wahre"})) return "true";
-  if (has_any(words, {"=green", "lagrange", "lagrangian"})) return "green";
-  if (has_any(words, {"almansi", "eulerian"})) return "almansi";
-  if (has_any(words, {"engineering", "=eng", "nominal", "nominelle", "=nenn", "technische", "biot"}))
-    return "engineering";
-  return {};
-}
-
-std::string stress_measure(const Words& words) {
-  if (has_any(words, {"piola", "=pk"}))
-    return has_any(words, {"=2", "=second", "=ii"}) ? "second_piola_kirchhoff"
-           : has_any(words, {"=1", "=first", "=i"}) ? "first_piola_kirchhoff"
-                                                    : "";
-  if (has_any(words, {"cauchy", "=true", "=wahre"})) return "cauchy";
-  if (has_any(words, {"engineering", "=eng", "nominal", "=nenn", "technische"})) return "first_piola_kirchhoff";
   return {};
 }
 
@@ -178,8 +160,8 @@ void guess_quantity(ColumnGuess& guess, const Words& words) {
     guess.kind = "squared stretch";
     return;
   }
-  if (guess.kind == "strain") guess.measure = strain_measure(words);
-  if (guess.kind == "stress") guess.measure = stress_measure(words);
+  if (guess.kind == "strain") guess.measure = data::strain_measure(words);
+  if (guess.kind == "stress") guess.measure = data::stress_measure(words);
   if (guess.measure == "almansi" ||
       (guess.kind == "stress" && has_any(words, {"=kirchhoff"}) && !has_any(words, {"piola"}))) {
     guess.kind = guess.kind == "strain" ? "Almansi strain" : "Kirchhoff stress";
