@@ -40,8 +40,8 @@ namespace tunica::app {
 
 namespace {
 
-/// Work after the searches that takes no longer needs no words.
-constexpr auto silence = std::chrono::seconds(2);
+/// Shorter steps after the searches show no progress.
+constexpr auto quick_step = std::chrono::seconds(2);
 
 struct RunOptions {
   std::string file, directory, share;
@@ -109,9 +109,8 @@ bool is_for_diagnosis(const comparison::RunSummary& best, const experiment::Expe
   if (!misses && !(best.misfit && best.misfit->contradicts())) return false;
   if (best.stability && !best.stability->imposed.empty()) return false;
   const std::string model = diagnosis::request_of(experiment).model;
-  const auto diagnosed = std::find_if(experiment.runs.begin(), experiment.runs.end(),
-                                      [&model](const experiment::RunEntry& run) { return run.model == model; });
-  return model == best.model && diagnosed != experiment.runs.end() && diagnosed->tests == best.tests;
+  const experiment::RunEntry* const diagnosed = diagnosis::run_of_model(experiment, model);
+  return model == best.model && diagnosed != nullptr && diagnosed->tests == best.tests;
 }
 
 std::string next_step(const GlobalOptions& global, const comparison::Summary& summary,
@@ -206,7 +205,7 @@ int run(const GlobalOptions& global, const RunOptions& asked) {
   auto how = options_of(global, options, session);
   std::optional<Stages> stages;
   how.concluding = [&](const std::string& what) {
-    if (!stages) stages.emplace(global.quiet, silence);
+    if (!stages) stages.emplace(global.quiet, quick_step);
     stages->tell("after the searches: " + what, {});
   };
   const auto outcome = calibration::calibrate(experiment, session.catalogue(), how);

@@ -232,6 +232,18 @@ TEST(Run, EndsWithTheTableThePathAndTheNextStep) {
   }
 }
 
+// What is poor depends on the tolerance.
+TEST(Run, SendsAPoorFitToTheDiagnosis) {
+  trial::Bench bench;
+  bench.experiment["runs"] = {{{"model", "neo"}, {"optimizer", "lm"}}};
+  const auto next = [&bench](const char* tolerance, const char* folder) {
+    bench.experiment["diagnosis"]["tolerance"] = tolerance;
+    return bench.tunica({"run", "experiment.json", "-o", folder}).out;
+  };
+  EXPECT_THAT(next("0.001 %", "strict"), HasSubstr("Next:    tunica diagnose experiment.json"));
+  EXPECT_THAT(next("50 %", "loose"), HasSubstr("Next:    tunica simulate experiment.json --model neo"));
+}
+
 TEST(Run, WritesNoControlCharactersToPipes) {
   const trial::Bench bench;
   const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});

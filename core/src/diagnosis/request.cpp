@@ -20,4 +20,10 @@ Request request_of(const experiment::Experiment& experiment) {
   return request;
 }
 
+const experiment::RunEntry* run_of_model(const experiment::Experiment& experiment, const std::string& model) {
+  for (const experiment::RunEntry& run : experiment.runs)
+    if (run.model == model) return &run;
+  return nullptr;
+}
+
 }  // namespace tunica::diagnosis

@@ -36,6 +36,9 @@ struct Request {
 /// Fills in what the file leaves open: the model of the first run.
 Request request_of(const experiment::Experiment& experiment);
 
+/// The run that a diagnosis of this model takes for its base: the first one with it; null where none has it.
+const experiment::RunEntry* run_of_model(const experiment::Experiment& experiment, const std::string& model);
+
 /// How far a diagnosis is, for a person: the stage, and the share that is done. Called from any thread.
 using Progress = std::function<void(const std::string& stage, double share)>;
 

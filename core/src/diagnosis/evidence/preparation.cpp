@@ -17,13 +17,6 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// The run that fits this model; null where none does.
-const experiment::RunEntry* run_of_model(const experiment::Experiment& experiment, const std::string& model) {
-  for (const experiment::RunEntry& run : experiment.runs)
-    if (run.model == model) return &run;
-  return nullptr;
-}
-
 /// The tests of that run, or all.
 std::vector<std::string> tests_of(const experiment::Experiment& experiment, const experiment::RunEntry* run) {
   if (run != nullptr) return run->tests;
