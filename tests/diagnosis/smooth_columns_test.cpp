@@ -207,8 +207,8 @@ TEST(SmoothColumns, LetEachBranchOfLaterCyclesHaveItsOwnShape) {
     x.push_back(1 + ((i / branch) % 2 == 0 ? t : 1 - t));
   }
   Eigen::VectorXd bump = Eigen::VectorXd::Zero(4 * branch);
-  // The turning point ends a branch.
-  for (std::size_t i = 2 * branch + 1; i <= 3 * branch; ++i)
+  // A valley begins a branch, a peak ends it.
+  for (std::size_t i = 2 * branch; i <= 3 * branch; ++i)
     bump[static_cast<Eigen::Index>(i)] = x[i] * x[i] * x[i] - 1.5;
   const Eigen::MatrixXd columns = columns_over(x);
   EXPECT_LT(left_by(columns, bump), 1e-9);

@@ -7,6 +7,8 @@
 
 #include <boost/math/special_functions/legendre.hpp>
 
+#include "data/cycles.hpp"
+
 namespace tunica::diagnosis {
 namespace {
 
@@ -29,17 +31,11 @@ std::vector<std::pair<std::size_t, std::size_t>> holds(const std::vector<double>
 /// x in [−1, 1] between the ends of a range.
 double between(double x, double low, double high) { return high > low ? 2 * (x - low) / (high - low) - 1 : 0; }
 
-/// [first, end) of the rows between turning points, holds left out. None where the abscissa trembles rather than turns.
-std::vector<std::pair<std::size_t, std::size_t>> branches(const std::vector<int>& directions) {
+/// The branches of a path; none where it trembles rather than turns.
+std::vector<data::Branch> branches(const std::vector<double>& path) {
   constexpr std::size_t least_rows = 8;  // of a branch, on average
-  std::vector<std::pair<std::size_t, std::size_t>> found;
-  for (std::size_t i = 0; i < directions.size();) {
-    std::size_t end = i + 1;
-    while (end < directions.size() && directions[end] == directions[i]) ++end;
-    if (directions[i] != 0) found.emplace_back(i, end);
-    i = end;
-  }
-  if (found.size() * least_rows > directions.size()) found.clear();
+  std::vector<data::Branch> found = path.empty() ? std::vector<data::Branch>() : data::branches_of(path, path.front());
+  if (found.size() * least_rows > path.size()) found.clear();
   return found;
 }
 
@@ -75,18 +71,18 @@ class CurveColumns {
       }
       for (unsigned degree = 0; degree <= 2; ++degree) add(degree, row, inside);
     }
-    if (each_branch_) add_later_branches(branches(directions));
+    if (each_branch_) add_later_branches(branches(curve_.abscissa));
     return std::move(columns_);
   }
 
  private:
   /// Cycles differ from one another, in whatever way.
-  void add_later_branches(const std::vector<std::pair<std::size_t, std::size_t>>& all) {
+  void add_later_branches(const std::vector<data::Branch>& all) {
     const std::size_t n = curve_.abscissa.size();
     left_ += n / 2 - n / 3;
     for (unsigned degree = 0; degree <= most_; ++degree)
       for (std::size_t b = 2; b < all.size(); ++b) {
-        const auto [first, end] = all[b];
+        const std::size_t first = all[b].first, end = all[b].last;
         const auto from = curve_.abscissa.begin() + static_cast<std::ptrdiff_t>(first),
                    to = curve_.abscissa.begin() + static_cast<std::ptrdiff_t>(end);
         const auto [low, high] = std::minmax_element(from, to);
