@@ -167,7 +167,7 @@ void add_verdict(Page& page, const Folder& folder) {
   std::vector<std::string> sure{fmt::format("Noise alone would look like this with {}. Below {} counts as detected.",
                                             chance(p, member(diagnosis, "p_value_is_bound") == true),
                                             figure(number(diagnosis, "alpha")))};
-  if (const double after = number(diagnosis, "p_after"); std::isfinite(after) && verdict != "discovered") {
+  if (const double after = number(diagnosis, "p_after"); std::isfinite(after)) {
     const std::string remainder = word(diagnosis, "remainder");
     sure.push_back(fmt::format("With the cause added, noise alone would leave this much with {}{}.", chance(after),
                                remainder == "clean"       ? "; nothing is left to explain"
