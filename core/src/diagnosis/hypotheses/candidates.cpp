@@ -176,6 +176,9 @@ class CandidateSearch {
     for (const Place& place : places) {
       try {
         add(mechanism, {candidate.id, place, alike.front()}, alike, found);
+        if (place.tests.empty() && needs_clock(mechanism))
+          for (const double pace : clock_.paces())
+            add(mechanism, {candidate.id, place, alike.front(), {}, {}, pace}, alike, found);
         if (!place.tests.empty()) all.tests.push_back(place.tests.front());
       } catch (const InputError& problem) {
         if (!candidate.absent.empty()) continue;
@@ -210,7 +213,7 @@ class CandidateSearch {
       for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace, quick_)) {
         if (slope.signature.size() == 0) continue;
         Hypothesis tangent{&mechanism,
-                           {first.id, first.place, settings[s], ranged.range},
+                           {first.id, first.place, settings[s], ranged.range, {}, first.pace},
                            embedded(slope.signature, assembly),
                            slope.side,
                            slope.sign};

@@ -25,6 +25,8 @@ struct Addition {
   MechanismFactory::Setting setting;         ///< nuisance parameters and number options where the search begins
   std::optional<AmplitudeRange> range = {};  ///< from the data; none: as the mechanism declares
   std::string as = {};                       ///< of several side by side, the name, from Extension; empty = the id
+  /// Seconds from row to row in the tests without time; none: slow enough for the material to relax.
+  std::optional<double> pace = {};
 
   /// The prefix of its parameters.
   [[nodiscard]] const std::string& name() const { return as.empty() ? id : as; }

@@ -40,17 +40,30 @@ bool unloads(const assembly::Assembly& base, const std::string& test) {
   return false;
 }
 
+std::vector<double> Clock::paces() const {
+  constexpr double fast = 1e-6;  // of the shortest step
+  if (!missing || !(longest > 0) || !std::isfinite(shortest)) return {};
+  return {fast * shortest, pace};
+}
+
 Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins::Catalogue& catalogue) {
   Clock clock;
+  std::size_t steps = 0;
+  double seconds = 0;
   for (const std::string& name : run.tests) {
     const auto& entry = experiment.test(name);
     const auto dataset = data::read_dataset(entry.data, catalogue.tests().find(entry.type)->second.factory.observables);
+    clock.missing = clock.missing || dataset.time.empty();
     if (dataset.time.size() < 2) continue;
-    clock.longest = std::max(clock.longest, dataset.time.back() - dataset.time.front());
+    const double duration = dataset.time.back() - dataset.time.front();
+    clock.longest = std::max(clock.longest, duration);
+    seconds += duration;
+    steps += dataset.time.size() - 1;
     for (std::size_t i = 1; i < dataset.time.size(); ++i)
       if (const double step = dataset.time[i] - dataset.time[i - 1]; step > 0)
         clock.shortest = std::min(clock.shortest, step);
   }
+  if (steps > 0) clock.pace = seconds / static_cast<double>(steps);
   return clock;
 }
 

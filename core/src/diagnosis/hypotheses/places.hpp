@@ -19,9 +19,13 @@ CauseGroup group_of(const MechanismFactory& mechanism);
 /// Whether the load on a test is taken off: its abscissa falls by a tenth of what it spans from its largest so far.
 bool unloads(const assembly::Assembly& base, const std::string& test);
 
-/// Shortest step and duration of the data's clocks, s; none where no fitted test has one.
+/// The clocks of the data, s; none where no fitted test has one.
 struct Clock {
-  double shortest = INFINITY, longest = 0;
+  double shortest = INFINITY, longest = 0;  ///< step and duration
+  double pace = 0;                          ///< from row to row, on average
+  bool missing = false;                     ///< in some test
+  /// What the pace of the tests without a clock may be: too fast to relax, or that of the others.
+  [[nodiscard]] std::vector<double> paces() const;
 };
 Clock clock_of(const experiment::Experiment& experiment, const experiment::RunEntry& run,
                const plugins::Catalogue& catalogue);

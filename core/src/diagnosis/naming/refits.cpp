@@ -26,7 +26,7 @@ const Hypothesis* hypothesis_of(const Hypotheses& hypotheses, const Addition& ad
   for (const Candidate& candidate : hypotheses.candidates)
     for (const Hypothesis& hypothesis : candidate.hypotheses)
       if (candidate.id == addition.id && hypothesis.addition.place == addition.place &&
-          hypothesis.addition.setting == addition.setting &&
+          hypothesis.addition.setting == addition.setting && hypothesis.addition.pace == addition.pace &&
           (hypothesis.side == MechanismFactory::Side::both || hypothesis.sign * amplitude >= 0))
         return &hypothesis;
   return nullptr;

@@ -55,13 +55,17 @@ std::optional<Warning> assumed_first_loading(const Inquiry& inquiry, const Evide
   const bool remembers = std::any_of(best.additions.begin(), best.additions.end(), [&](const Addition& one) {
     return one.place.tests.empty() && assembly::has_memory(inquiry.mechanism(one.id));
   });
+  std::optional<double> pace;
+  for (const Addition& one : best.additions)
+    if (one.pace) pace = one.pace;
   std::vector<assembly::TestPast> pasts;
   if (remembers) pasts = assembly::unknown_pasts(evidence.experiment, evidence.run, inquiry.catalogue);
   if (pasts.empty()) return std::nullopt;
   return Warning{WarningKind::run_takes_file_order,
-                 fmt::format("the rows of some tests are taken as a first loading, by rising load; a run of "
-                             "extended.json takes them in the order of their file: {}",
-                             assembly::words_of(pasts))};
+                 fmt::format("the rows of some tests are taken as a first loading, by rising load{}; a run of "
+                             "extended.json takes them in the order of their file{}: {}",
+                             pace ? fmt::format(", {:.3g} s from row to row", *pace) : std::string(),
+                             pace ? " and without time" : "", assembly::words_of(pasts))};
 }
 
 }  // namespace
