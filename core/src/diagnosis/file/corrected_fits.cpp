@@ -14,6 +14,7 @@
 #include "diagnosis/detection/squares.hpp"
 #include "diagnosis/evidence/projection.hpp"
 #include "diagnosis/file/calibrated_fits.hpp"
+#include "diagnosis/naming/remainder.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 
@@ -31,8 +32,9 @@ class Fitting {
   Fitting(const Inquiry& inquiry, const Analysis& analysis, const Record& record)
       : inquiry_(inquiry), evidence_(analysis.evidence), record_(record) {}
 
-  /// From the base optimum and the initial values; none where the data cannot be read so, or fit no better.
-  [[nodiscard]] std::optional<CorrectedFit> fitted(const Correction& correction) const {
+  /// From the base optimum and the initial values; none where the data cannot be read so. `gives_up`: none either where
+  /// the fit is no better than the base fit.
+  [[nodiscard]] std::optional<CorrectedFit> fitted(const Correction& correction, bool gives_up) const {
     Record read = record_;
     if (!correction.apply(read)) return std::nullopt;
     CorrectedFit corrected{&correction, nullptr, {}, 0};
@@ -47,7 +49,7 @@ class Fitting {
     std::vector<double> initial(parameters.size());
     corrected.assembly->box().from_unit(corrected.assembly->box().initial(), initial);
     for (const std::vector<double>& start : {evidence_.fit.free, initial})
-      try_from(corrected, start, first_steps, true);
+      try_from(corrected, start, first_steps, gives_up);
     if (!corrected.fit.status.ok() || corrected.fit.residuals.size() != evidence_.fit.residuals.size())
       return std::nullopt;
     corrected.log_weight = correction.log_prior - corrected.fit.chi2 / 2;
@@ -123,7 +125,7 @@ std::vector<CorrectedFit> corrected_fits(const Inquiry& inquiry, const Analysis&
   tbb::parallel_for(std::size_t{0}, climbs.size(), [&](std::size_t k) {
     double before = analysis.evidence.fit.chi2;
     for (const Correction* const correction : climbs[k]) {
-      auto corrected = fitting.fitted(*correction);
+      auto corrected = fitting.fitted(*correction, true);
       const double now = corrected ? corrected->fit.chi2 : INFINITY;
       if (corrected && fitting.helps(*corrected)) fits[k].push_back(std::move(*corrected));
       if (!(now < before + same_rung)) break;
@@ -139,6 +141,11 @@ std::vector<CorrectedFit> corrected_fits(const Inquiry& inquiry, const Analysis&
   });
   std::stable_sort(all.begin(), all.end(), by_weight);
   return all;
+}
+
+bool leaves_noise(const Inquiry& inquiry, const Analysis& analysis, const Record& record, const Correction& correction) {
+  const auto corrected = Fitting(inquiry, analysis, record).fitted(correction, false);
+  return corrected && is_clean(p_of_corrected(analysis, *corrected));
 }
 
 double p_of_corrected(const Analysis& analysis, const CorrectedFit& corrected) {

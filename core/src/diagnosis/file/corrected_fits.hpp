@@ -24,6 +24,9 @@ struct CorrectedFit {
 std::vector<CorrectedFit> corrected_fits(const Inquiry& inquiry, const Analysis& analysis, const Record& record,
                                          const Corrections& corrections);
 
+/// Whether the base model leaves noise where the data are read as this correction says.
+bool leaves_noise(const Inquiry& inquiry, const Analysis& analysis, const Record& record, const Correction& correction);
+
 /// P-value of what a corrected fit leaves: smooth shapes, and all mechanisms.
 double p_of_corrected(const Analysis& analysis, const CorrectedFit& corrected);
 

@@ -36,6 +36,9 @@ using Corrections = std::vector<Correction>;
 Corrections corrections_of(const Inquiry& inquiry, const Record& record, const experiment::RunEntry& run,
                            bool scale_is_seen);
 
+/// The tests of a run that have rows to be fitted.
+std::vector<std::string> fitted_tests(const Record& record, const experiment::RunEntry& run);
+
 // The kinds, each by itself.
 void add_stress_measures(const Record& record, const std::vector<std::string>& tests, Corrections& all);
 void add_strain_definitions(const Record& record, const std::vector<std::string>& tests, Corrections& all);

@@ -32,11 +32,16 @@ void add_for_each_and_all(FileKind kind, const std::vector<std::string>& tests,
   for (const std::string& test : tests) add({test}, tests.size() == 1);
 }
 
-Corrections corrections_of(const Inquiry& inquiry, const Record& record, const experiment::RunEntry& run,
-                           bool scale_is_seen) {
+std::vector<std::string> fitted_tests(const Record& record, const experiment::RunEntry& run) {
   std::vector<std::string> tests;
   for (const std::string& name : run.tests)
     if (!record.test(name).hold_out.all) tests.push_back(name);
+  return tests;
+}
+
+Corrections corrections_of(const Inquiry& inquiry, const Record& record, const experiment::RunEntry& run,
+                           bool scale_is_seen) {
+  const std::vector<std::string> tests = fitted_tests(record, run);
   Corrections all;
   add_stress_measures(record, tests, all);
   add_strain_definitions(record, tests, all);

@@ -65,6 +65,17 @@ std::vector<std::string> untellable(const Analysis& analysis, bool scale_seen) {
   return all;
 }
 
+/// Other measures of the stresses of all tests with which the base leaves noise as well.
+std::vector<std::string> measures_as_good(const Inquiry& inquiry, const Analysis& analysis, const Record& record) {
+  Corrections readings;
+  add_stress_measures(record, fitted_tests(record, analysis.evidence.run), readings);
+  std::vector<std::string> all;
+  for (const Correction& one : readings)
+    if (one.common && leaves_noise(inquiry, analysis, record, one))
+      all.push_back(fmt::format("another measure of stress ({})", one.sentence));
+  return all;
+}
+
 FileCause cause_of(const CorrectedFit& corrected, double p_after) {
   const Correction& correction = *corrected.correction;
   FileCause cause{
@@ -99,10 +110,14 @@ Explanation weighed_with_file(const Inquiry& inquiry, const Analysis& analysis, 
   const bool scale_seen = scale_is_seen(analysis);
   file.untellable = untellable(analysis, scale_seen);
   file.suspect = inspected(evidence);
-  if (!analysis.alarm.raised || !explanation.gross.empty()) return explanation;
-  inquiry.report("what the file may say and is not so", 0.75);
-
+  if (!explanation.gross.empty()) return explanation;
   const Record record(evidence.experiment, evidence.run.tests, inquiry.catalogue);
+  if (!analysis.alarm.raised) {
+    for (std::string& reading : measures_as_good(inquiry, analysis, record))
+      file.untellable.push_back(std::move(reading));
+    return explanation;
+  }
+  inquiry.report("what the file may say and is not so", 0.75);
   const Corrections corrections = corrections_of(inquiry, record, evidence.run, scale_seen);
   const std::vector<CorrectedFit> fits = corrected_fits(inquiry, analysis, record, corrections);
   file.tried = corrections.size();
