@@ -4,6 +4,7 @@
 
 Any other function of a plugin or program may run on a machine without AVX, where the first such instruction ends it."""
 import concurrent.futures
+import os
 import re
 import subprocess
 import sys
@@ -13,9 +14,14 @@ CHOSEN = ("run_on_avx2", "run_on_avx512")
 
 
 def offenders(path):
-    listing = subprocess.run(["objdump", "-d", "--no-show-raw-insn", path], capture_output=True, text=True, check=True).stdout
+    # Of millions of lines grep keeps the heads of functions and what names a vector register.
+    disassembled = subprocess.Popen(["objdump", "-d", "--no-show-raw-insn", path], stdout=subprocess.PIPE)
+    kept = subprocess.run(["grep", "-aE", "^[0-9a-f]+ <|%[xyz]mm"], stdin=disassembled.stdout, capture_output=True, text=True,
+                          check=True, env={**os.environ, "LC_ALL": "C"})
+    if disassembled.wait() != 0:
+        sys.exit(f"objdump cannot read {path}")
     function, found, chosen = "", set(), 0
-    for line in listing.splitlines():
+    for line in kept.stdout.splitlines():
         head = re.match(r"[0-9a-f]+ <(.*)>:$", line)
         if head:
             function = head[1]
