@@ -63,9 +63,12 @@ def install():
 
 
 def build(folder):
-    """cmake -S folder -B folder/build && cmake --build folder/build"""
-    launcher = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={told.launcher}"] if told.launcher else []
-    run("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={prefix}", *launcher)
+    """cmake -S folder -B folder/build && cmake --build folder/build, optimised as a user gets it in a few parts only: what
+    the parts look at is the same without, and the compiler takes a third of the time."""
+    settings = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={told.launcher}"] if told.launcher else []
+    if told.part not in ("demiray", "new_model", "new_optimizer"):
+        settings.append("-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG")
+    run("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={prefix}", *settings)
     run("cmake", "--build", folder / "build")
 
 
@@ -183,7 +186,7 @@ def pkg_config():
     for variable in ("plugin_cflags", "plugin_ldflags"):
         flags += run("pkg-config", f"--variable={variable}", "tunica").split()
     source = told.source / "examples/plugins/demiray/demiray.cpp"
-    run("g++", "-O2", source, *flags, "-o", folder / "demiray.so")
+    run("g++", source, *flags, "-o", folder / "demiray.so")
     expect("demiray" in run(program, "--plugin-path", folder / "demiray.so", "describe", "demiray"), "is not described")
 
 
@@ -286,7 +289,7 @@ def refusals():
             expect(message in shown, f"{path.name}: expected '{message}' in: {shown}")
     fine = compiled("fine")
     expect("[good" in run(program, "--plugin-path", fine, "list"), "a good plugin is not listed")
-    twice = run(program, "--plugin-path", fine, "--plugin-path", compiled("again"), "list", code=3)
+    twice = run(program, "--plugin-path", fine, "--plugin-path", shutil.copy(fine, folder / "again.so"), "list", code=3)
     expect("again.so" in twice, twice)
 
 
