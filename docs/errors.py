@@ -7,7 +7,6 @@ Most messages say what is wrong and what to do. Cures of the others stand in err
 message. Ends with 1 where a message has no cure, or a cure no message."""
 import argparse
 import difflib
-import json
 import pathlib
 import re
 import sys
@@ -101,38 +100,6 @@ written by `docs/errors.py` from the sources; do not edit it by hand.
 """
 
 
-# Definitions of schemas/tunica-result.schema.json that list codes, and what stands where in result.json.
-CODES = [
-    ("stop_reason", "`runs[].stop_reason`", "What ended a search; null where the optimiser came back by itself."),
-    ("warning_kind", "`warning_details[].kind`", "What a warning is about."),
-    ("certificate_verdict", "`runs[].best.certificate.verdict_code`", "What speaks for or against an optimum."),
-    ("noise_origin", "`runs[].best.channel_noise[].origin`", "What the noise of a channel rests on."),
-    ("hold_out_verdict", "`runs[].best.hold_out[].verdict`", "How held-out rows are predicted."),
-    ("diagnosis_verdict", "`diagnosis.verdict`", "What a diagnosis says."),
-    ("diagnosis_reason", "`diagnosis.reason_codes[]`", "Why the verdict is what it is."),
-    ("discovery_reason", "`discovery.reasons[].code`", "Why the verdict of a discovery is what it is."),
-    ("diagnosis_warning_kind", "`warning_details[].kind` of a diagnosis", "What a warning is about."),
-    ("cause_group", "`diagnosis.causes[].group`, `diagnosis.ranking[].group`", "What a cause is a property of."),
-    ("cause_standing", "`diagnosis.causes[].standing`", "What the probability of a cause is worth."),
-    ("mechanism_absence", "`diagnosis.detectable[].absence`", "Why a mechanism is not looked for, or would not be seen."),
-    ("block_verdict", "`diagnosis.gain.held_out[].verdict`", "How the extension predicts rows that it has not seen."),
-    ("remainder", "`diagnosis.remainder`", "What the causes leave."),
-]
-
-
-def codes():
-    """The codes of result.json, from its schema."""
-    definitions = json.loads((ROOT / "schemas/tunica-result.schema.json").read_text(encoding="utf-8"))["definitions"]
-    lines = ["\n## Codes in result.json", "Sentences may change; these codes do not. Scripts should decide by them."]
-    for name, place, meaning in CODES:
-        if name not in definitions:
-            continue
-        lines += [f"\n### {place}", meaning, "", "| code | meaning |", "|---|---|"]
-        lines += [f"| `{one['const']}` | {cell(one['description'])} |"
-                  for one in definitions[name]["oneOf"] if one["const"] is not None]
-    return lines
-
-
 def subject_of(path):
     return next((k for k, (_, _, places) in enumerate(SUBJECTS) if any(path.startswith(one) for one in places)), None)
 
@@ -202,7 +169,7 @@ def page(rows):
             lines += ["| message | what to do | from |", "|---|---|---|"]
             lines += [f"| {cell(wrong)} | {cure_cell(told)} | `{name}` |"
                       for (wrong, name), told in messages_here.items()]
-    return "\n".join(lines + codes()) + "\n"
+    return "\n".join(lines) + "\n"
 
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
