@@ -193,8 +193,8 @@ def names():
 
 
 def describe(name):
-    """What a model, test, optimiser or mechanism declares: its parameters, options and source, as
-    `tunica describe --json` prints it."""
+    """What a model, test, optimiser or mechanism declares: its parameters, options and source. It is the object that
+    `tunica describe --json` prints under the kind; where several kinds share the name, all of them by kind."""
     found = json.loads(library().describe(name))
     return next(iter(found.values())) if len(found) == 1 else found
 

@@ -81,7 +81,7 @@ class Folder:
 
     def __init__(self, directory):
         self.directory = pathlib.Path(directory)
-        #: result.json as it stands; docs/results.md lists its keys
+        #: result.json as it is; tunica.result_types and docs/results-reference.md have its keys
         self.json = _saved(self.directory / "result.json")
 
     @property
@@ -268,8 +268,8 @@ class Judgement(Folder):
 
     @property
     def verdict(self):
-        """The code of the verdict, for example "nothing_detected", "named" or "discovered"; docs/diagnosis.md and
-        docs/discovery.md list them."""
+        """The code of the verdict, for example "nothing_detected", "named" or "discovered":
+        tunica.result_types.DiagnosisVerdict."""
         return self.json[self._found]["verdict"]
 
     @property
@@ -344,7 +344,7 @@ class Simulation:
 
 
 class Check(dict):
-    """What tunica.check() found, as `tunica check --json` prints it."""
+    """What tunica.check() found, as `tunica check --json` prints it: tunica.result_types.Check has its keys."""
 
     @property
     def in_order(self):
