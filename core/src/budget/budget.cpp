@@ -62,7 +62,6 @@ std::vector<std::string> ids_of(const std::vector<diagnosis::Addition>& addition
 }
 
 std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis, const plugins::Catalogue& catalogue) {
-  using Lack = Budget::Lack;
   const diagnosis::Evidence& evidence = analysis.evidence;
   std::set<std::string> unordered;
   for (const assembly::TestPast& one : assembly::unknown_pasts(evidence.experiment, evidence.run, catalogue))
@@ -73,9 +72,9 @@ std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis,
     const bool order = std::any_of(one.without_past.begin(), one.without_past.end(),
                                    [&](const std::string& test) { return unordered.contains(test); });
     if (one.absence == diagnosis::Absence::no_clock)
-      all.push_back({one.id, Lack::clock});
+      all.push_back({one.id, Budget::Lack::clock});
     else if (!one.without_past.empty())
-      all.push_back({one.id, order ? Lack::order : Lack::loading});
+      all.push_back({one.id, order ? Budget::Lack::order : Budget::Lack::loading});
   }
   return all;
 }

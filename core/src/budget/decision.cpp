@@ -96,7 +96,7 @@ Contenders with_another_state_judged(Contenders ties, double sure) {
 }  // namespace
 
 Decision decided(const Budget& budget) {
-  if (budget.base.rms <= budget.tolerance.share || budget.rough) return {};
+  if (budget.rough || !(budget.base.rms > 0)) return {};
   const Contender* top = nullptr;
   for (const Contender& one : budget.contenders)
     if (believed(one) && (top == nullptr || one.share > top->share)) top = &one;

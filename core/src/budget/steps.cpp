@@ -55,7 +55,7 @@ class StepSearch {
     for (const Entrant& one : entrants.all)
       if (one.mixture && one.share >= most - about_as_much && (!first || one.log_evidence > first->log_evidence))
         first = &one;
-    while (path.size() < most_steps && field_.size.of(current.mixture.fit).rms > tolerance_) {
+    while (path.size() < most_steps && field_.size.of(current.mixture.fit).rms > (path.empty() ? 0 : tolerance_)) {
       std::optional<Weighed> next;
       if (path.empty() && first)
         next = Weighed{*first->mixture, first->log_evidence};

@@ -46,11 +46,13 @@ std::string class_of(const Contender& contender) {
 /// `stable`: the base is a material. Where it is none, what leads mends that too, and its form says nothing.
 std::string leading_words(const Budget& budget, const Decision& decision, bool stable) {
   const Contender& first = *decision.first.front();
+  const char* const misfit =
+      budget.base.rms <= budget.tolerance.share ? "a misfit that is within the tolerance" : "the misfit";
   if (!stable && first.in_the_energy)
     return fmt::format(
-        "mainly {}{}: it takes {} of the misfit; the base is not stable as it is fitted, so that the "
+        "mainly {}{}: it takes {} of {}; the base is not stable as it is fitted, so that the "
         "form of the law is open; {}",
-        class_of(first), place_of(first.place), percent(share_of(budget, first)),
+        class_of(first), place_of(first.place), percent(share_of(budget, first)), misfit,
         remains(budget.rest(), budget.tolerance));
   std::vector<std::string> forms;
   std::set<std::string> said{first.id};
@@ -59,8 +61,8 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
       forms.push_back(fmt::format("{} {}", decision.first[k]->id, percent(decision.first[k]->share)));
   const bool acts_like = first.in_the_energy && !first.id.starts_with(first.sort);
   const std::string like = acts_like ? fmt::format(", which acts like a law of {} here", first.sort) : "";
-  std::string text = fmt::format("mainly {}{}{}{}: it takes {} of the misfit", first.term ? "the term " : "", first.id,
-                                 like, place_of(first.place), percent(share_of(budget, first)));
+  std::string text = fmt::format("mainly {}{}{}{}: it takes {} of {}", first.term ? "the term " : "", first.id, like,
+                                 place_of(first.place), percent(share_of(budget, first)), misfit);
   std::vector<std::string> others;
   std::size_t own = 0;
   for (const Step& step : budget.steps) {

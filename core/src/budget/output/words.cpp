@@ -23,11 +23,10 @@ std::string added(const std::vector<Step>& steps, std::size_t which) {
 
 /// "viscoelasticity (needs a time column); stress_softening (needs the order of the rows)"
 std::string untried(const std::vector<Budget::Untried>& all) {
-  using Lack = Budget::Lack;
   constexpr std::array<std::pair<Lack, const char*>, 3> needs{
-      {{Lack::clock, "needs a time column"},
-       {Lack::order, "needs the order of the rows"},
-       {Lack::loading, "needs the loading before the first row"}}};
+      {{Budget::Lack::clock, "needs a time column"},
+       {Budget::Lack::order, "needs the order of the rows"},
+       {Budget::Lack::loading, "needs the loading before the first row"}}};
   std::vector<std::string> parts;
   for (const auto& [lack, what] : needs) {
     std::vector<std::string> ids;
