@@ -380,5 +380,16 @@ TEST(File, WhereNothingIsWrongOnlyWhatCannotBeToldIsSaid) {
               HasSubstr("one factor on all stresses would leave no trace in these data"));
 }
 
+// Stretches up to 1.1: λ and λ² are nearly one factor. Seed 21.
+TEST(File, AMeasureOfStressThatFitsAsWellIsSaid) {
+  const Measured measured(
+      {{.stretch = testing::evenly(1.01, 1.1, 30)}, {.name = "axial", .stretch = testing::evenly(1.01, 1.1, 30)}});
+  measured.measure(21);
+  const Diagnosis found = measured.diagnose();
+  EXPECT_EQ(found.explanation.verdict, Verdict::nothing_detected);
+  EXPECT_THAT(found.explanation.file.untellable,
+              ::testing::Contains(HasSubstr("are first Piola–Kirchhoff stresses, not Cauchy ones")));
+}
+
 }  // namespace
 }  // namespace tunica::trial

@@ -159,6 +159,29 @@ TEST(RowOrder, OfOneTestIsEnoughForAMemoryOfTheMaterial) {
               ::testing::ElementsAre(HasSubstr("the rows of 'axial' were measured")));
 }
 
+// Both strips were pulled at 2 s from row to row, and nobody kept the clock of the axial one: it is stiffer than at
+// rest.
+TEST(RowOrder, WithoutAClockAStripMayHaveBeenPulledAsFastAsTheOther) {
+  std::vector<double> time;
+  for (std::size_t i = 0; i < cycles(1.02).size(); ++i) time.push_back(2.0 * static_cast<double>(i));
+  const std::vector<double> first(time.begin(), time.begin() + 30);
+  Measured measured({{.stretch = cycles(1.02), .time = time}, {.name = "axial", .time = first}});
+  measured.measure(3, [](json& truth) {
+    json branch = mechanism("viscoelasticity", "g", 0.4);
+    branch["parameters"]["tau"] = {{"initial", 10}};
+    truth["models"]["gho"]["mechanisms"] = {branch};
+  });
+  json& axial = measured.experiment["tests"]["axial"]["data"];
+  axial["columns"].erase("time");
+  axial.erase("order");
+  const Diagnosis found = measured.diagnose();
+  ASSERT_THAT(found.explanation.claim.causes, ::testing::Not(::testing::IsEmpty()));
+  EXPECT_EQ(found.explanation.claim.causes.front().id, "viscoelasticity");
+  EXPECT_NEAR(found.explanation.claim.causes.front().amplitude.value, 0.4, 0.1);
+  EXPECT_THAT(sentences(found, WarningKind::run_takes_file_order),
+              ::testing::ElementsAre(AllOf(HasSubstr("2 s from row to row"), HasSubstr("without time"))));
+}
+
 // The axial strip begins far from rest. What it bore before is unknown, so no memory of the material is looked for.
 TEST(RowOrder, WithoutAPastADriftOfTheSensorIsNoName) {
   Measured measured({{.stretch = cycles(1.02)}, {.name = "axial", .stretch = testing::evenly(1.6, 1.02, 30)}});

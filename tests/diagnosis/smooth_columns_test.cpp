@@ -208,8 +208,7 @@ TEST(SmoothColumns, LetEachBranchOfLaterCyclesHaveItsOwnShape) {
   }
   Eigen::VectorXd bump = Eigen::VectorXd::Zero(4 * branch);
   // A valley begins a branch, a peak ends it.
-  for (std::size_t i = 2 * branch; i <= 3 * branch; ++i)
-    bump[static_cast<Eigen::Index>(i)] = x[i] * x[i] * x[i] - 1.5;
+  for (std::size_t i = 2 * branch; i <= 3 * branch; ++i) bump[static_cast<Eigen::Index>(i)] = x[i] * x[i] * x[i] - 1.5;
   const Eigen::MatrixXd columns = columns_over(x);
   EXPECT_LT(left_by(columns, bump), 1e-9);
   EXPECT_LE(columns.cols(), static_cast<Eigen::Index>(2 * branch));

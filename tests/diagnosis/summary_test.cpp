@@ -207,9 +207,9 @@ TEST_F(Summary, WordsAnAmbiguitySetByWhatLooksAlike) {
 TEST_F(Summary, SaysWhatIsGainedInAndOutOfSample) {
   EXPECT_EQ(line("Gain"), "");
   found.prospects.gain = Gain{100.04, 40, 3.21, {}, {}};
-  EXPECT_EQ(line("Gain"), "|r|² 100.0 → 40.0 (of pure noise it would take about 3.2)");
+  EXPECT_EQ(line("Gain"), "|r|² 100.0 → 40.0 (fitted to noise, it would lower it by about 3.2)");
   claim.named = 2;
-  EXPECT_EQ(line("Gain"), "|r|² 100.0 → 40.0 (of pure noise one mechanism would take about 3.2)");
+  EXPECT_EQ(line("Gain"), "|r|² 100.0 → 40.0 (fitted to noise, one mechanism would lower it by about 3.2)");
   using enum BlockVerdict;
   found.prospects.gain->held_out = {{"B", 8, 6, 0.5, 9, predicted},
                                     {"A", 5, 1, 0.5, 9, predicted},
@@ -222,7 +222,8 @@ TEST_F(Summary, SaysWhatIsGainedInAndOutOfSample) {
   found.prospects.gain->best_rejected = Rejected{"geometry_error", 55.04};
   EXPECT_EQ(
       line("Gain"),
-      "|r|² 100.0 → 40.0 (of pure noise one mechanism would take about 3.2); predicts A, which it has not seen: "
+      "|r|² 100.0 → 40.0 (fitted to noise, one mechanism would lower it by about 3.2); predicts A, which it has not "
+      "seen: "
       "error 5.00 → 1.00 σ; does not predict D: error 12.3 → 1241 σ; the best rejected alternative, geometry_error, "
       "leaves 55.0");
   found.prospects.gain->held_out = {{"A", 10, 100, 0.5, 9, not_predicted}};

@@ -210,8 +210,9 @@ std::string held_out_words(const Gain& gain) {
 }
 
 std::string gain_line(const Gain& gain, bool several) {
-  std::string text = fmt::format("|r|² {:.1f} → {:.1f} (of pure noise {} would take about {:.1f})", gain.before,
-                                 gain.after, several ? "one mechanism" : "it", gain.expected_under_nothing);
+  std::string text =
+      fmt::format("|r|² {:.1f} → {:.1f} (fitted to noise, {} would lower it by about {:.1f})", gain.before, gain.after,
+                  several ? "one mechanism" : "it", gain.expected_under_nothing);
   text += held_out_words(gain);
   if (gain.best_rejected)
     text += fmt::format("; the best rejected alternative, {}, leaves {:.1f}", gain.best_rejected->id,
