@@ -14,7 +14,7 @@ FEW = {"evaluations": 400, "realisations": 4, "starts": 2}
 BUDGETS = {"lamb_aorta": {}, "treloar": {}, "known_solution": {}, "lamb_aorta_stable": {**FEW, "evaluations": 200},
            "cn_pressurisation": {"evaluations": 8, "realisations": 1, "starts": 1, "elements": [3, 6]},
            "optimizer_comparison": {**FEW, "evaluations": 800, "realisations": 10},
-           "calculix": {"evaluations": 2, "tests": ["strip"], "certificate": False},
+           "calculix": {"evaluations": 2, "tests": ["strip"], "certificate": False, "fixed": {"c20": -8, "c30": 1.2}},
            "cn_guided": {**FEW, "evaluations": 60, "certificate": False},
            "es_assessment": {**FEW, "realisations": 20}, "murine_tube": {**FEW, "evaluations": 60, "starts": 1},
            "mechanisms": {**FEW, "starts": 1, "evaluations": 40}}
@@ -50,8 +50,11 @@ def lessened(value, budget):
 
 
 def short(made, budget):
-    """The same experiment with few tests, and within the budget."""
+    """The same experiment with few tests and parameters, and within the budget."""
     tests = {name: test for name, test in made["tests"].items() if name in budget.get("tests", made["tests"])}
+    for model in made["models"].values():
+        for name in budget.get("fixed", {}):
+            model["parameters"][name] = {"fixed": budget["fixed"][name]}
     return lessened({**made, "tests": tests}, budget)
 
 
