@@ -64,7 +64,7 @@ def install():
 
 def build(folder):
     """cmake -S folder -B folder/build && cmake --build folder/build, optimised as a user gets it in a few parts only: what
-    the parts look at is the same without, and the compiler takes a third of the time."""
+    the parts look at is the same without, and a model compiles in a third of the time."""
     settings = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={told.launcher}"] if told.launcher else []
     if told.part not in ("demiray", "new_model", "new_optimizer"):
         settings.append("-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG")
