@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -25,7 +25,8 @@ constexpr std::size_t most_fits = 12;  ///< corrections, those that see most
 constexpr double least_seen = 6;       ///< of |r|², at the null
 constexpr std::size_t full_search = 60, short_search = 30;
 constexpr std::size_t calibration_starts = 3;
-constexpr double smallest_gain = 2;  ///< of |r|²: less is no explanation
+constexpr std::size_t quick_again_calibrated = 3;  ///< that are begun again at random points, the likeliest
+constexpr double smallest_gain = 2;                ///< of |r|²: less is no explanation
 
 /// A correction at its null, and what it sees of the residuals.
 struct Seen {
@@ -69,51 +70,40 @@ class Calibrating {
     return found;
   }
 
-  /// From what the linearisation promises and from a third of it, at the base optimum and at the initial values; then
-  /// from random points of the base. The base may have gone far to make up for the mistake.
-  [[nodiscard]] std::optional<CorrectedFit> fitted(const Seen& seen) const {
-    const Extension& extension = *seen.extension;
-    const assembly::Assembly& assembly = extension.assembly();
-    const auto workspace = assembly.evaluator().make_workspace();
-    CorrectedFit corrected{seen.correction, {seen.extension, &assembly}, {}, 0};
-    std::vector<double> amplitudes(seen.amplitudes.data(), seen.amplitudes.data() + seen.amplitudes.size());
-    const auto try_from = [&](const std::vector<double>& base, double share, std::size_t steps) {
-      std::vector<double> start = extension.at_null(base);
-      for (std::size_t k = 0; k < amplitudes.size(); ++k) {
-        const AmplitudeRange range = range_of(mechanism(k, seen), extension.additions()[k]);
-        const double amplitude = std::clamp(share * amplitudes[k], range.plausible_min, range.plausible_max);
-        for (const std::size_t member : extension.parts()[k].amplitude) start[member] = amplitude;
-      }
-      Fit fit = least_squares(assembly, extension.variables(), start, *workspace, steps,
-                              {.wanted = std::min(evidence_.fit.chi2, corrected.fit.residuals.size() > 0
-                                                                          ? corrected.fit.chi2
-                                                                          : std::numeric_limits<double>::infinity()),
-                               .negligible = says_nothing});
-      if (!fit.status.ok() || !std::isfinite(fit.chi2)) return;
-      if (corrected.fit.residuals.size() > 0 && !(fit.chi2 < corrected.fit.chi2)) return;
-      for (std::size_t k = 0; k < amplitudes.size(); ++k)
-        amplitudes[k] = fit.free[extension.parts()[k].amplitude.front()];
-      corrected.fit = std::move(fit);
-    };
+  /// From what the linearisation promises and from a third of it, at the base optimum and at the initial values.
+  [[nodiscard]] CorrectedFit fitted(const Seen& seen) const {
+    CorrectedFit corrected{seen.correction, {seen.extension, &seen.extension->assembly()}, {}, 0};
+    for (const double share : {1.0, 0.3})
+      try_from(seen, evidence_.fit.free, share * seen.amplitudes, full_search, corrected);
     const assembly::UnitBox& box = evidence_.base->box();
-    std::vector<double> point(evidence_.fit.free.size()), unit(point.size());
+    std::vector<double> point(evidence_.fit.free.size());
     box.from_unit(box.initial(), point);
-    for (const double share : {1.0, 0.3}) try_from(evidence_.fit.free, share, full_search);
-    try_from(point, 1, full_search);
+    try_from(seen, point, amplitudes_of(seen, corrected), full_search, corrected);
+    return corrected;
+  }
+
+  /// From random points of the base, which may have gone far to make up for the mistake.
+  void search_again(const Seen& seen, CorrectedFit& corrected) const {
     boost::random::mt19937_64 generator(derive_seed(inquiry_.request.seed, seen.correction->mend));
     boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
+    std::vector<double> point(evidence_.fit.free.size()), unit(point.size());
     for (std::size_t k = 0; k < calibration_starts; ++k) {
       for (double& x : unit) x = uniform(generator);
-      box.from_unit(unit, point);
-      try_from(point, 1, short_search);
+      evidence_.base->box().from_unit(unit, point);
+      try_from(seen, point, amplitudes_of(seen, corrected), short_search, corrected);
     }
+  }
+
+  /// With its amplitudes and its weight; none where it explains nothing, or nobody would believe it.
+  [[nodiscard]] std::optional<CorrectedFit> weighed(const Seen& seen, CorrectedFit corrected) const {
     if (corrected.fit.residuals.size() == 0 || !(corrected.fit.chi2 < evidence_.fit.chi2 - smallest_gain))
       return std::nullopt;
-    for (std::size_t k = 0; k < extension.parts().size(); ++k) {
+    const Eigen::VectorXd values = amplitudes_of(seen, corrected);
+    for (std::size_t k = 0; k < seen.extension->parts().size(); ++k) {
       const MechanismFactory& factory = mechanism(k, seen);
-      const AmplitudeRange range = range_of(factory, extension.additions()[k]);
+      const AmplitudeRange range = range_of(factory, seen.extension->additions()[k]);
       Amplitude amplitude{factory.parameters.front().name, factory.parameters.front().unit};
-      amplitude.value = corrected.fit.free[extension.parts()[k].amplitude.front()];
+      amplitude.value = values[static_cast<Eigen::Index>(k)];
       amplitude.low = amplitude.high = NAN;
       if (!(amplitude.value >= range.plausible_min && amplitude.value <= range.plausible_max)) return std::nullopt;
       corrected.amplitudes.push_back(std::move(amplitude));
@@ -125,6 +115,34 @@ class Calibrating {
   }
 
  private:
+  /// Of the fit so far, else what the linearisation promises.
+  [[nodiscard]] static Eigen::VectorXd amplitudes_of(const Seen& seen, const CorrectedFit& corrected) {
+    Eigen::VectorXd values = seen.amplitudes;
+    if (corrected.fit.residuals.size() > 0)
+      for (Eigen::Index k = 0; k < values.size(); ++k)
+        values[k] = corrected.fit.free[seen.extension->parts()[static_cast<std::size_t>(k)].amplitude.front()];
+    return values;
+  }
+
+  void try_from(const Seen& seen, const std::vector<double>& base, const Eigen::VectorXd& amplitudes, std::size_t steps,
+                CorrectedFit& corrected) const {
+    const Extension& extension = *seen.extension;
+    std::vector<double> start = extension.at_null(base);
+    for (std::size_t k = 0; k < extension.parts().size(); ++k) {
+      const AmplitudeRange range = range_of(mechanism(k, seen), extension.additions()[k]);
+      const double amplitude =
+          std::clamp(amplitudes[static_cast<Eigen::Index>(k)], range.plausible_min, range.plausible_max);
+      for (const std::size_t member : extension.parts()[k].amplitude) start[member] = amplitude;
+    }
+    const bool first = corrected.fit.residuals.size() == 0;
+    const auto workspace = extension.assembly().evaluator().make_workspace();
+    Fit fit = least_squares(extension.assembly(), extension.variables(), start, *workspace, steps,
+                            {.wanted = first ? evidence_.fit.chi2 : std::min(evidence_.fit.chi2, corrected.fit.chi2),
+                             .negligible = says_nothing});
+    if (!fit.status.ok() || !std::isfinite(fit.chi2)) return;
+    if (first || fit.chi2 < corrected.fit.chi2) corrected.fit = std::move(fit);
+  }
+
   [[nodiscard]] const MechanismFactory& mechanism(std::size_t part, const Seen& seen) const {
     return inquiry_.mechanism(seen.extension->additions()[part].id);
   }
@@ -168,11 +186,18 @@ std::vector<CorrectedFit> calibrated_fits(const Inquiry& inquiry, const Analysis
     if (one && one->squares > least_seen) seen.push_back(std::move(*one));
   std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.squares > b.squares; });
   seen.resize(std::min(seen.size(), most_fits));
-  std::vector<std::optional<CorrectedFit>> fits(seen.size());
+  std::vector<CorrectedFit> fits(seen.size());
   tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t k) { fits[k] = calibrating.fitted(seen[k]); });
+  std::vector<std::size_t> order(fits.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto squares = [&](std::size_t k) { return fits[k].fit.residuals.size() > 0 ? fits[k].fit.chi2 : INFINITY; };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return squares(a) < squares(b); });
+  if (inquiry.request.quick) order.resize(std::min(order.size(), quick_again_calibrated));
+  tbb::parallel_for(std::size_t{0}, order.size(),
+                    [&](std::size_t k) { calibrating.search_again(seen[order[k]], fits[order[k]]); });
   std::vector<CorrectedFit> all;
-  for (auto& fit : fits)
-    if (fit) all.push_back(std::move(*fit));
+  for (std::size_t k = 0; k < fits.size(); ++k)
+    if (auto fit = calibrating.weighed(seen[k], std::move(fits[k]))) all.push_back(std::move(*fit));
   return all;
 }
 

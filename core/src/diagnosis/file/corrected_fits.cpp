@@ -22,7 +22,7 @@ namespace tunica::diagnosis {
 namespace {
 
 constexpr std::size_t first_steps = 30, full_steps = 60;
-constexpr std::size_t corrections_searched_again = 8;  ///< corrections, the likeliest
+constexpr std::size_t quick_again = 4, full_again = 8;  ///< corrections that are searched for again, the likeliest
 constexpr std::size_t starts_again = 4;
 constexpr double gain_of_note = 2;  ///< of |r|²: less is no explanation
 constexpr double same_rung = 1;     ///< of |r|²: a rung that is worse by more ends the ladder
@@ -136,14 +136,16 @@ std::vector<CorrectedFit> corrected_fits(const Inquiry& inquiry, const Analysis&
   for (auto& climb : fits) std::move(climb.begin(), climb.end(), std::back_inserter(all));
   const auto by_weight = [](const CorrectedFit& a, const CorrectedFit& b) { return a.log_weight > b.log_weight; };
   std::stable_sort(all.begin(), all.end(), by_weight);
-  tbb::parallel_for(std::size_t{0}, std::min(all.size(), corrections_searched_again), [&](std::size_t k) {
-    if (all[k].amplitudes.empty()) fitting.search_again(all[k]);
-  });
+  tbb::parallel_for(std::size_t{0}, std::min(all.size(), inquiry.request.quick ? quick_again : full_again),
+                    [&](std::size_t k) {
+                      if (all[k].amplitudes.empty()) fitting.search_again(all[k]);
+                    });
   std::stable_sort(all.begin(), all.end(), by_weight);
   return all;
 }
 
-bool leaves_noise(const Inquiry& inquiry, const Analysis& analysis, const Record& record, const Correction& correction) {
+bool leaves_noise(const Inquiry& inquiry, const Analysis& analysis, const Record& record,
+                  const Correction& correction) {
   const auto corrected = Fitting(inquiry, analysis, record).fitted(correction, false);
   return corrected && is_clean(p_of_corrected(analysis, *corrected));
 }
