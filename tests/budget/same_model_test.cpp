@@ -58,6 +58,12 @@ TEST(SameModel, OfRubberThatStiffensAsItsChainsEnd) {
   EXPECT_EQ(model_with(measured, "chain_extensibility", 0.01), "gent");
 }
 
+TEST(SameModel, OfRubberThatDependsOnTheSecondInvariant) {
+  const StripAndSheet measured;
+  measured.measure(7, part_of_rubber(mechanism("second_invariant", "c2", 40)));
+  EXPECT_EQ(model_with(measured, "second_invariant", 20), "mooney_rivlin");
+}
+
 TEST(SameModel, NoneOfAnErrorOfTheRig) {
   const StripAndSheet measured;
   measured.measure(7, {}, [](const Strip&, double) { return 60; });

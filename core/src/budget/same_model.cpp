@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "diagnosis/hypotheses/extension.hpp"
+#include "plugins/default_options.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::budget {
@@ -22,9 +23,12 @@ std::optional<diagnosis::Extension> replaced(const discovery::Subject& subject, 
                                   [&](const auto& one) { return one.name == subject.model; });
   entry->type = type;
   const experiment::ParameterSettings settings = entry->parameters;
+  const Options options = entry->options;
   for (const bool keeps_options : {true, false})
     for (const bool keeps_settings : {true, false}) {
-      if (!keeps_options) entry->options = {};
+      entry->options = plugins::default_options(subject.catalogue.models().at(type).factory.options);
+      if (keeps_options)
+        for (const auto& [name, value] : options.values()) entry->options.set(name, value);
       entry->parameters = keeps_settings ? settings : experiment::ParameterSettings{};
       try {
         return diagnosis::Extension(experiment, subject.run, to_tests, subject.catalogue);

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "plugins/default_options.hpp"
+
 namespace tunica::diagnosis {
 
 using experiment::Experiment;
@@ -72,8 +74,7 @@ std::string optimizer_of(Experiment& experiment, const std::string& asked, const
   while (std::any_of(experiment.optimizers.begin(), experiment.optimizers.end(),
                      [&](const auto& other) { return other.name == entry.name; }))
     entry.name += "_extended";
-  for (const Option& option : catalogue.optimizers().at("ceres_lm").factory.options)
-    if (option.fallback) entry.options.set(option.name, *option.fallback);
+  entry.options = plugins::default_options(catalogue.optimizers().at("ceres_lm").factory.options);
   experiment.optimizers.push_back(std::move(entry));
   return experiment.optimizers.back().name;
 }

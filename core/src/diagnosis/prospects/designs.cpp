@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "plugins/default_options.hpp"
 #include "plugins/guarded.hpp"
 
 namespace tunica::diagnosis {
@@ -30,13 +31,6 @@ std::vector<double> ramp(double from, double to, std::size_t count = design_rows
   for (std::size_t i = 0; i < count; ++i)
     values.push_back(from + (to - from) * static_cast<double>(i + 1) / static_cast<double>(count));
   return values;
-}
-
-Options default_options(const std::vector<Option>& declared) {
-  Options options;
-  for (const Option& option : declared)
-    if (option.fallback) options.set(option.name, *option.fallback);
-  return options;
 }
 
 /// σ_Cauchy = λ P = λ² S of a face that is stretched by λ: by how much the Cauchy stress is larger than the measured
@@ -78,7 +72,7 @@ std::vector<Plan> plans(const Evidence& evidence, const plugins::Catalogue& cata
   const double reach = std::clamp(evidence.base->models().largest_stretch(), 1.15, 8.0);
   const auto uniaxial = catalogue.tests().find("uniaxial");
   const Options of_strip =
-      uniaxial != catalogue.tests().end() ? default_options(uniaxial->second.factory.options) : Options{};
+      uniaxial != catalogue.tests().end() ? plugins::default_options(uniaxial->second.factory.options) : Options{};
   const auto strip = [&](std::string description, const char* direction, std::vector<double> stretch,
                          std::vector<double> time) -> Plan& {
     Plan plan{std::move(description), "uniaxial", of_strip, {{"stretch", std::move(stretch)}},
@@ -113,8 +107,9 @@ std::vector<Plan> plans(const Evidence& evidence, const plugins::Catalogue& cata
     const auto sheet = [&](const char* words, const char* protocol,
                            std::vector<std::pair<std::string, std::vector<double>>> stretches,
                            std::vector<std::string> channels) {
-      Plan plan{words, "biaxial",          default_options(biaxial->second.factory.options), std::move(stretches),
-                {},    std::move(channels)};
+      Plan plan{
+          words, "biaxial",          plugins::default_options(biaxial->second.factory.options), std::move(stretches),
+          {},    std::move(channels)};
       plan.options.set("protocol", std::string(protocol));
       found.push_back(std::move(plan));
     };

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/default_options.hpp"
+
+namespace tunica::plugins {
+
+Options default_options(const std::vector<Option>& declared) {
+  Options options;
+  for (const Option& option : declared)
+    if (option.fallback) options.set(option.name, *option.fallback);
+  return options;
+}
+
+}  // namespace tunica::plugins
