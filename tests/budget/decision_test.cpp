@@ -57,6 +57,10 @@ TEST_F(Deciding, WhatIsFarAheadAndSureLeads) {
   // Whether the misfit matters is another question.
   budget.base.rms = 0.01;
   expect({rig("gain", 0.9, 0.95)}, Verdict::leading, {"gain"});
+  // Within the tolerance little is left of any cause, so that the evidence has to decide.
+  expect({rig("gain", 0.96, 0.12), rig("offset", 0.8, 0.85)}, Verdict::unknown, {});
+  budget.base.rms = 0;
+  expect({rig("gain", 0.9, 0.95)}, Verdict::unknown, {});
 }
 
 /// It takes 95 % and leaves 3 % of the range at most.

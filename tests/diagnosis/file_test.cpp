@@ -330,6 +330,10 @@ TEST(File, HeadersThatContradictTheFileAreSaid) {
   using data::words_of_header;
   EXPECT_EQ(words_of_header("Nominal stress [kPa]").measure, "first_piola_kirchhoff");
   EXPECT_EQ(words_of_header("PK2_axial").measure, "second_piola_kirchhoff");
+  EXPECT_EQ(words_of_header("1st PK stress, specimen 2").measure, "first_piola_kirchhoff");
+  EXPECT_EQ(words_of_header("PK1_cycle_2").measure, "first_piola_kirchhoff");
+  EXPECT_EQ(words_of_header("second Piola-Kirchhoff stress 1").measure, "second_piola_kirchhoff");
+  EXPECT_EQ(words_of_header("PK stress, specimen 2").measure, "");
   EXPECT_EQ(words_of_header("Hencky strain").definition, "true_strain");
   EXPECT_EQ(words_of_header("true strain").measure, "");
   EXPECT_EQ(words_of_header("stress_axial [kPa]").measure, "");

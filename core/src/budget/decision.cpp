@@ -51,8 +51,8 @@ double enough(const Budget& budget, const Contender& top) {
 /// asked: what takes far less needs an unlisted misfit several times as large as is tolerated.
 bool is_enough_alone(const Budget& budget, const Contender& top) {
   constexpr double nearly_all = 0.95, half_again = 1.5;
-  return top.share >= nearly_all && top.rest.rms <= half_again * budget.tolerance.share &&
-         budget.unlisted_probability < 1 - sure_enough;
+  return budget.base.rms > budget.tolerance.share && top.share >= nearly_all &&
+         top.rest.rms <= half_again * budget.tolerance.share && budget.unlisted_probability < 1 - sure_enough;
 }
 
 /// What takes about as much as the best, less what the evidence excludes. Forms of the energy are many and alike: among

@@ -43,11 +43,14 @@ std::string class_of(const Contender& contender) {
   return contender.id;
 }
 
+std::string the_misfit(const Budget& budget) {
+  return budget.base.rms <= budget.tolerance.share ? "a misfit that is within the tolerance" : "the misfit";
+}
+
 /// `stable`: the base is a material. Where it is none, what leads mends that too, and its form says nothing.
 std::string leading_words(const Budget& budget, const Decision& decision, bool stable) {
   const Contender& first = *decision.first.front();
-  const char* const misfit =
-      budget.base.rms <= budget.tolerance.share ? "a misfit that is within the tolerance" : "the misfit";
+  const std::string misfit = the_misfit(budget);
   if (!stable && first.in_the_energy)
     return fmt::format(
         "mainly {}{}: it takes {} of {}; the base is not stable as it is fitted, so that the "
@@ -98,9 +101,9 @@ std::string tie_words(const Budget& budget, const Decision& decision) {
   }
   const std::string rest = remains(budget.rest(), budget.tolerance);
   if (parts.size() == 1)
-    return fmt::format("{} takes so much of the misfit, but what may look like it was not looked for; {}",
-                       parts.front(), rest);
-  return fmt::format("alone, these take so much of the misfit that none is clearly ahead: {}; {}",
+    return fmt::format("{} takes so much of {}, but what may look like it was not looked for; {}", parts.front(),
+                       the_misfit(budget), rest);
+  return fmt::format("alone, these take so much of {} that none is clearly ahead: {}; {}", the_misfit(budget),
                      fmt::join(parts, ", "), rest);
 }
 

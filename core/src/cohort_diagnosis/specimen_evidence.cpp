@@ -72,7 +72,8 @@ class Gathering {
     for (std::size_t k = 0; k < hypotheses.directions.size(); ++k) {
       const Direction& direction = hypotheses.directions[k];
       const diagnosis::Hypothesis& hypothesis = hypotheses.hypothesis(k);
-      if (hypothesis.at_large) continue;
+      // Specimens of a cohort share their hypotheses, and the pace of a test is its own: without a clock it is slow.
+      if (hypothesis.at_large || hypothesis.addition.pace) continue;
       if (direction.row && std::find(rows.begin(), rows.end(), k) == rows.end()) continue;
       Sketch& sketch = sketch_of(all, direction.candidate, hypothesis);
       const double t = direction.unit.dot(residuals_);
@@ -127,7 +128,7 @@ class Gathering {
     for (std::size_t k = 0; k < hypotheses.directions.size(); ++k) {
       const Direction& direction = hypotheses.directions[k];
       const diagnosis::Hypothesis& hypothesis = hypotheses.hypothesis(k);
-      if (!hypothesis.at_large) continue;
+      if (!hypothesis.at_large || hypothesis.addition.pace) continue;
       Profile like;
       like.id = hypothesis.addition.id;
       like.place = hypothesis.addition.place;

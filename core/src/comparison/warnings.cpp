@@ -203,7 +203,7 @@ void warn_of_default_bounds(const RunSummary& run, Warnings& warnings) {
       // Times the objective of the winner. Where that describes the data to within their noise, nothing is better, and
       // only a place as good would be worth a look.
       const bool to_noise = run.misfit && run.misfit->judged() && !run.misfit->contradicts();
-      const double hopeless = to_noise ? 2 : 100;
+      const double hopeless = to_noise ? 1.1 : 100;
       if (stops.count == 0 || winner || stops.objective > hopeless * std::max(std::abs(run.objective), 1.0)) continue;
       if ((upper ? parameter.upper_kind : parameter.lower_kind) != BoundKind::by_default) continue;
       warnings.push_back(

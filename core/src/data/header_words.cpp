@@ -4,6 +4,25 @@
 #include "data/words.hpp"
 
 namespace tunica::data {
+namespace {
+
+/// 1 or 2, of the number beside "pk" or "piola": that of a specimen or a cycle says nothing. 0: there is none.
+int piola_kirchhoff(const std::vector<std::string>& words) {
+  const auto number = [](const std::string& word) {
+    return word == "1" || word == "first" || word == "i" ? 1 : word == "2" || word == "second" || word == "ii" ? 2 : 0;
+  };
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] != "pk" && words[i].find("piola") == std::string::npos) continue;
+    std::size_t before = i, after = i + 1;
+    while (before > 0 && (words[before - 1] == "st" || words[before - 1] == "nd")) --before;
+    while (after < words.size() && words[after].starts_with("kirchhoff")) ++after;
+    if (before > 0 && number(words[before - 1]) > 0) return number(words[before - 1]);
+    if (after < words.size() && number(words[after]) > 0) return number(words[after]);
+  }
+  return 0;
+}
+
+}  // namespace
 
 std::string strain_measure(const std::vector<std::string>& words) {
   if (has_any(words, {"=true", "=log", "logarithmic", "hencky", "natural", "=ln", "=wahre"})) return "true";
@@ -15,10 +34,10 @@ std::string strain_measure(const std::vector<std::string>& words) {
 }
 
 std::string stress_measure(const std::vector<std::string>& words) {
-  if (has_any(words, {"piola", "=pk"}))
-    return has_any(words, {"=2", "=second", "=ii"}) ? "second_piola_kirchhoff"
-           : has_any(words, {"=1", "=first", "=i"}) ? "first_piola_kirchhoff"
-                                                    : "";
+  if (has_any(words, {"piola", "=pk"})) {
+    const int kind = piola_kirchhoff(words);
+    return kind == 2 ? "second_piola_kirchhoff" : kind == 1 ? "first_piola_kirchhoff" : "";
+  }
   if (has_any(words, {"cauchy", "=true", "=wahre"})) return "cauchy";
   if (has_any(words, {"engineering", "=eng", "nominal", "=nenn", "technische"})) return "first_piola_kirchhoff";
   return {};

@@ -25,7 +25,7 @@ constexpr std::size_t most_fits = 12;  ///< corrections, those that see most
 constexpr double least_seen = 6;       ///< of |r|², at the null
 constexpr std::size_t full_search = 60, short_search = 30;
 constexpr std::size_t calibration_starts = 3;
-constexpr std::size_t quick_again_calibrated = 3;  ///< that are begun again at random points, the likeliest
+constexpr std::size_t quick_again_calibrated = 3;  ///< that are begun again at random points, those that take most
 constexpr double smallest_gain = 2;                ///< of |r|²: less is no explanation
 
 /// A correction at its null, and what it sees of the residuals.

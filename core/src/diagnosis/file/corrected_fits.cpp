@@ -32,8 +32,8 @@ class Fitting {
   Fitting(const Inquiry& inquiry, const Analysis& analysis, const Record& record)
       : inquiry_(inquiry), evidence_(analysis.evidence), record_(record) {}
 
-  /// From the base optimum and the initial values; none where the data cannot be read so. `gives_up`: none either where
-  /// the fit is no better than the base fit.
+  /// From the base optimum and the initial values; none where the data cannot be read so. `gives_up`: ends
+  /// early where it will be no better than the base fit.
   [[nodiscard]] std::optional<CorrectedFit> fitted(const Correction& correction, bool gives_up) const {
     Record read = record_;
     if (!correction.apply(read)) return std::nullopt;
@@ -136,10 +136,10 @@ std::vector<CorrectedFit> corrected_fits(const Inquiry& inquiry, const Analysis&
   for (auto& climb : fits) std::move(climb.begin(), climb.end(), std::back_inserter(all));
   const auto by_weight = [](const CorrectedFit& a, const CorrectedFit& b) { return a.log_weight > b.log_weight; };
   std::stable_sort(all.begin(), all.end(), by_weight);
-  tbb::parallel_for(std::size_t{0}, std::min(all.size(), inquiry.request.quick ? quick_again : full_again),
-                    [&](std::size_t k) {
-                      if (all[k].amplitudes.empty()) fitting.search_again(all[k]);
-                    });
+  std::vector<std::size_t> exact;
+  for (std::size_t k = 0; k < all.size() && exact.size() < (inquiry.request.quick ? quick_again : full_again); ++k)
+    if (all[k].amplitudes.empty()) exact.push_back(k);
+  tbb::parallel_for(std::size_t{0}, exact.size(), [&](std::size_t k) { fitting.search_again(all[exact[k]]); });
   std::stable_sort(all.begin(), all.end(), by_weight);
   return all;
 }

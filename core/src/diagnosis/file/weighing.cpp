@@ -65,7 +65,7 @@ std::vector<std::string> untellable(const Analysis& analysis, bool scale_seen) {
   return all;
 }
 
-/// Other measures of the stresses of all tests with which the base leaves noise as well.
+/// Other measures of the stresses, of all tests that have another one, with which the base leaves noise as well.
 std::vector<std::string> measures_as_good(const Inquiry& inquiry, const Analysis& analysis, const Record& record) {
   Corrections readings;
   add_stress_measures(record, fitted_tests(record, analysis.evidence.run), readings);

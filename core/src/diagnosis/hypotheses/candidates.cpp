@@ -109,7 +109,7 @@ class CandidateSearch {
   }
 
   /// Whether a memory of the model shows in a test whose past is known, while the others can take part as a first
-  /// loading: their rows of unknown order stand by their values, and without time the material is in equilibrium.
+  /// loading: their rows of unknown order stand by their values.
   [[nodiscard]] bool remembers_elsewhere(const std::string& model, const std::vector<std::string>& forgotten) const {
     if (std::any_of(forgotten.begin(), forgotten.end(),
                     [&](const std::string& test) { return pasts_.at(test) != data::Past::order_unknown; }))

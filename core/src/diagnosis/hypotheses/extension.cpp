@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/hypotheses/places.hpp"
 #include "plugins/guarded.hpp"
 
 namespace tunica::diagnosis {
@@ -60,14 +61,14 @@ std::optional<std::size_t> index_of(const assembly::Assembly& assembly, const st
   return std::nullopt;
 }
 
-/// A clock for the tests of a run that have none, if the order of their rows is known or assumed.
+/// A clock for the tests of a run that have none and whose pace is open.
 void set_pace(Experiment& experiment, const experiment::RunEntry& run, double pace,
               const plugins::Catalogue& catalogue) {
   for (const std::string& name : run.tests) {
     experiment::TestEntry& entry = entry_named(experiment.tests, name);
     data::Dataset timed =
         data::read_dataset(entry.data, catalogue.tests().find(entry.type)->second.factory.observables);
-    if (!timed.time.empty() || !(timed.ordered || entry.data.sorted)) continue;
+    if (!pace_is_open(entry, timed)) continue;
     for (std::size_t i = 0; i < timed.count; ++i) timed.time.push_back(pace * static_cast<double>(i));
     entry.data.given = std::make_shared<const data::Dataset>(std::move(timed));
     entry.data.sorted = false;
@@ -89,8 +90,15 @@ Extension::Extension(const experiment::Experiment& experiment, const experiment:
     for (const std::string& test : addition.place.tests)
       entry_named(experiment_.tests, test).mechanisms.push_back(entry_of(addition, mechanism));
   }
-  const auto paced = std::find_if(additions_.begin(), additions_.end(), [](const Addition& one) { return one.pace; });
-  if (paced != additions_.end()) set_pace(experiment_, run, *paced->pace, catalogue);
+  // A test was pulled at one pace. The first mechanism that needs a clock says at which.
+  const auto clocked = [&](const Addition& one) { return needs_clock(catalogue.mechanisms().at(one.id).factory); };
+  const auto first = std::find_if(additions_.begin(), additions_.end(), clocked);
+  if (first != additions_.end()) {
+    const std::optional<double> pace = first->pace;
+    for (Addition& one : additions_)
+      if (clocked(one)) one.pace = pace;
+    if (pace) set_pace(experiment_, run, *pace, catalogue);
+  }
   assembly_ = std::make_unique<assembly::Assembly>(experiment_, run, catalogue);
 
   std::vector<bool> added(assembly_->layout().parameters.size(), false);

@@ -53,7 +53,7 @@ Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins:
   for (const std::string& name : run.tests) {
     const auto& entry = experiment.test(name);
     const auto dataset = data::read_dataset(entry.data, catalogue.tests().find(entry.type)->second.factory.observables);
-    clock.missing = clock.missing || dataset.time.empty();
+    clock.missing = clock.missing || (pace_is_open(entry, dataset) && !entry.hold_out.all);
     if (dataset.time.size() < 2) continue;
     const double duration = dataset.time.back() - dataset.time.front();
     clock.longest = std::max(clock.longest, duration);
@@ -65,6 +65,10 @@ Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins:
   }
   if (steps > 0) clock.pace = seconds / static_cast<double>(steps);
   return clock;
+}
+
+bool pace_is_open(const experiment::TestEntry& entry, const data::Dataset& dataset) {
+  return entry.data.sorted && dataset.time.empty();
 }
 
 bool needs_clock(const MechanismFactory& mechanism) {

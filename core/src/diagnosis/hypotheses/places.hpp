@@ -23,12 +23,15 @@ bool unloads(const assembly::Assembly& base, const std::string& test);
 struct Clock {
   double shortest = INFINITY, longest = 0;  ///< step and duration
   double pace = 0;                          ///< from row to row, on average
-  bool missing = false;                     ///< in some test
+  bool missing = false;                     ///< in some test whose pace is open
   /// What the pace of the tests without a clock may be: too fast to relax, or that of the others.
   [[nodiscard]] std::vector<double> paces() const;
 };
 Clock clock_of(const experiment::Experiment& experiment, const experiment::RunEntry& run,
                const plugins::Catalogue& catalogue);
+/// Whether nobody knows at what pace a test was pulled: its rows are taken as a first loading, and have no time.
+bool pace_is_open(const experiment::TestEntry& entry, const data::Dataset& dataset);
+
 bool needs_clock(const MechanismFactory& mechanism);
 
 /// Where to look for a mechanism: as it declares, or over the clock of the data for nuisance parameters in seconds.

@@ -56,7 +56,7 @@ std::optional<Warning> assumed_first_loading(const Inquiry& inquiry, const Evide
     return one.place.tests.empty() && assembly::has_memory(inquiry.mechanism(one.id));
   });
   std::optional<double> pace;
-  for (const Addition& one : best.additions)
+  for (const Addition& one : best.extension->additions())
     if (one.pace) pace = one.pace;
   std::vector<assembly::TestPast> pasts;
   if (remembers) pasts = assembly::unknown_pasts(evidence.experiment, evidence.run, inquiry.catalogue);
