@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/ranking.hpp"
+#include "plugins/default_options.hpp"
 #include "plugins/limited_work.hpp"
 #include "text/escaped.hpp"
 #include "tunica/detail/bounded_json.hpp"
@@ -84,9 +85,7 @@ void refine(const assembly::Assembly& assembly, const plugins::Catalogue& catalo
   if (found == catalogue.optimizers().end() || !around.status.ok() || assembly.layout().has_costly_tests ||
       work.is_over())
     return;
-  Options options;
-  for (const auto& option : found->second.factory.options)
-    if (option.fallback) options.set(option.name, *option.fallback);
+  Options options = plugins::default_options(found->second.factory.options);
   options.set("starts", std::int64_t{1});
   uncertainty::RefitObjective target;
   target.residual_count = assembly.layout().residual_count;

@@ -10,6 +10,7 @@
 #include "comparison/uncertainty_tables.hpp"
 #include "comparison/uncertainty_words.hpp"
 #include "data/nearest.hpp"
+#include "plugins/default_options.hpp"
 #include "plugins/limited_work.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
@@ -31,9 +32,7 @@ uncertainty::LocalOptimizer local_optimizer(const experiment::Experiment& experi
                     "\"optimizers\" in analysis.optimizer",
                     experiment.file.string(), type));
   if (!named.empty()) return {&found->second, experiment.optimizer(named).options};
-  Options options;
-  for (const auto& option : found->second.factory.options)
-    if (option.fallback) options.set(option.name, *option.fallback);
+  Options options = plugins::default_options(found->second.factory.options);
   options.set("starts", std::int64_t{1});
   return {&found->second, std::move(options)};
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/hypotheses/places.hpp"
+#include "plugins/default_options.hpp"
 #include "plugins/guarded.hpp"
 
 namespace tunica::diagnosis {
@@ -25,8 +26,8 @@ MechanismEntry entry_of(const Addition& addition, const MechanismFactory& mechan
     amplitude.max = range.max;
     amplitude.initial = std::clamp(0.1 * range.plausible_max + 0.9 * mechanism.null, range.min, range.max);
   }
+  entry.options = plugins::default_options(mechanism.options);
   for (const Option& option : mechanism.options) {
-    if (option.fallback) entry.options.set(option.name, *option.fallback);
     if (option.name == "channel") entry.options.set("channel", addition.place.channel);
     if (option.name == "rows" && addition.place.row)
       entry.options.set("rows", fmt::format("{}:{}:1", *addition.place.row, *addition.place.row + 1));

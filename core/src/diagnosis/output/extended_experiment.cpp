@@ -8,6 +8,7 @@
 #include "diagnosis/output/fitted_experiment.hpp"
 #include "diagnosis/output/outputs.hpp"
 #include "experiment/reader.hpp"
+#include "plugins/default_options.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -31,8 +32,7 @@ void add_gross_rows(Experiment& experiment, const std::vector<Cause>& rows, cons
     for (auto& test : experiment.tests) {
       if (test.name != row.place.tests.front()) continue;
       MechanismEntry entry{row.id, {}, {}};
-      for (const Option& option : catalogue.mechanisms().at(row.id).factory.options)
-        if (option.fallback) entry.options.set(option.name, *option.fallback);
+      entry.options = plugins::default_options(catalogue.mechanisms().at(row.id).factory.options);
       entry.options.set("channel", row.place.channel);
       entry.options.set("rows", fmt::format("{}:{}:1", row.place.file_row, row.place.file_row + 1));
       experiment::ParameterSetting& shift = entry.parameters[row.amplitude.name];
