@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "assembly/memory.hpp"
+#include "diagnosis/hypotheses/places.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -61,11 +62,16 @@ std::optional<Warning> assumed_first_loading(const Inquiry& inquiry, const Evide
   std::vector<assembly::TestPast> pasts;
   if (remembers) pasts = assembly::unknown_pasts(evidence.experiment, evidence.run, inquiry.catalogue);
   if (pasts.empty()) return std::nullopt;
+  const auto pace_words = [&] {
+    if (!pace) return std::string();
+    if (*pace < clock_of(evidence.experiment, evidence.run, inquiry.catalogue).shortest)
+      return std::string(", too fast to relax");
+    return fmt::format(", {:.3g} s from row to row", *pace);
+  };
   return Warning{WarningKind::run_takes_file_order,
                  fmt::format("the rows of some tests are taken as a first loading, by rising load{}; a run of "
                              "extended.json takes them in the order of their file{}: {}",
-                             pace ? fmt::format(", {:.3g} s from row to row", *pace) : std::string(),
-                             pace ? " and without time" : "", assembly::words_of(pasts))};
+                             pace_words(), pace ? " and without time" : "", assembly::words_of(pasts))};
 }
 
 }  // namespace

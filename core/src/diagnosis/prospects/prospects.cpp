@@ -26,25 +26,40 @@ std::vector<Warning> noise_warnings(const Evidence& evidence, const Explanation&
   return warnings;
 }
 
+/// "signal_drift was not looked for in these tests, stress_softening only as in a first loading".
+std::string not_looked_for_words(const std::vector<std::string>& nowhere, const std::vector<std::string>& elsewhere,
+                                 const std::vector<std::string>& first_loading) {
+  const auto were = [](const std::vector<std::string>& ids) { return text::agreeing(ids.size(), "was", "were"); };
+  std::string words;
+  if (!nowhere.empty()) words = fmt::format("{} {} not looked for", text::joined(nowhere), were(nowhere));
+  if (!elsewhere.empty())
+    words += nowhere.empty()
+                 ? fmt::format("{} {} not looked for in these tests", text::joined(elsewhere), were(elsewhere))
+                 : fmt::format(", nor {} in these tests", text::joined(elsewhere));
+  if (first_loading.empty()) return words;
+  if (words.empty())
+    return fmt::format("{} {} looked for in these tests only as in a first loading", text::joined(first_loading),
+                       were(first_loading));
+  return fmt::format("{}; {} only as in a first loading", words, text::joined(first_loading));
+}
+
 /// One sentence for whatever has memory and all tests whose past is unknown: what to record.
 std::optional<Warning> memory_warning(const Inquiry& inquiry, const Analysis& analysis) {
-  std::vector<std::string> nowhere, elsewhere;
+  std::vector<std::string> nowhere, elsewhere, first_loading;
   std::set<std::string> tests;
   for (const Candidate& candidate : analysis.hypotheses.candidates) {
     if (candidate.without_past.empty()) continue;
-    (candidate.hypotheses.empty() ? nowhere : elsewhere).push_back(candidate.id);
+    const bool of_material = candidate.mechanism->stage < Stage::test;
+    (candidate.hypotheses.empty() ? nowhere : of_material ? first_loading : elsewhere).push_back(candidate.id);
     tests.insert(candidate.without_past.begin(), candidate.without_past.end());
   }
   if (tests.empty()) return std::nullopt;
   const Evidence& evidence = analysis.evidence;
   std::vector<assembly::TestPast> pasts = assembly::unknown_pasts(evidence.experiment, evidence.run, inquiry.catalogue);
   std::erase_if(pasts, [&](const assembly::TestPast& one) { return !tests.contains(one.test); });
-  const auto were = [](const std::vector<std::string>& ids) { return text::agreeing(ids.size(), "was", "were"); };
-  std::string ids = nowhere.empty()
-                        ? fmt::format("{} {} not looked for in these tests", text::joined(elsewhere), were(elsewhere))
-                        : fmt::format("{} {} not looked for", text::joined(nowhere), were(nowhere));
-  if (!nowhere.empty() && !elsewhere.empty()) ids += fmt::format(", nor {} in these tests", text::joined(elsewhere));
-  return Warning{WarningKind::memory_not_looked_for, fmt::format("{}: {}", ids, assembly::words_of(pasts))};
+  return Warning{
+      WarningKind::memory_not_looked_for,
+      fmt::format("{}: {}", not_looked_for_words(nowhere, elsewhere, first_loading), assembly::words_of(pasts))};
 }
 
 }  // namespace
