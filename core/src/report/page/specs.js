@@ -133,8 +133,11 @@ tunicaReport.specs = (() => {
       const across = rule.axis === "x" ? {x: {scale: "x", value: rule.at}, y: {value: 0}, y2: {signal: "height"}}
                                        : {y: {scale: "y", value: rule.at}, x: {value: 0}, x2: {signal: "width"}};
       made.push({type: "rule", clip: true, encode: {update: {...across, stroke: {value: look.muted}, strokeDash: {value: [4, 3]}}}});
+      // Near the right edge the label stands on the left.
+      const near_edge = `scale('x', ${rule.at}) > 0.8 * width`;
       if (rule.label) made.push({type: "text", clip: true, encode: {update: {
-        ...(rule.axis === "x" ? {x: {scale: "x", value: rule.at, offset: 4}, y: {value: 12}}
+        ...(rule.axis === "x" ? {x: {signal: `scale('x', ${rule.at}) + (${near_edge} ? -4 : 4)`}, y: {value: 12},
+                                 align: {signal: `${near_edge} ? 'right' : 'left'`}}
                               : {x: {value: 6}, y: {scale: "y", value: rule.at, offset: -5}}),
         text: {value: rule.label}, fill: {value: look.muted}, fontSize: {value: 11}}}});
     });
