@@ -112,6 +112,7 @@ json description_json(const plugins::Catalogue::Entry<ModelFactory>& entry) {
   document["parameters"] = parameters_json(model->describe().parameters);
   document["options"] = options_json(factory.options);
   if (!model->describe().formula.empty()) document["formula"] = model->describe().formula;
+  document["compressible"] = model->describe().compressible;
   document["history_size"] = model->describe().history_size;
   document["energy_parts"] = json::array();
   for (const auto& part : model->parts()) document["energy_parts"].push_back(part->describe().name);

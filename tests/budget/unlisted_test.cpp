@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Dense>
 #include <gmock/gmock.h>
 
 #include "diagnosis/evidence/smooth_columns.hpp"

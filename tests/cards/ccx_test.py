@@ -29,6 +29,15 @@ FIBRES = {
     "four_fibre": {"mu": 9, "k1": 15, "k2": 0.5, "theta": 35, "k1_axial": 8, "k2_axial": 0.3, "k1_circumferential": 11,
                    "k2_circumferential": 0.7},
 }
+# Materials that change their volume: the bulk modulus of the card is the fitted one.
+FOAMS = {
+    "hyperfoam": ({"mu_1": 25, "alpha_1": 6, "nu": 0.18}, {}),
+    "hyperfoam of two terms": ({"mu_1": 25, "alpha_1": 6, "nu_1": 0.18, "mu_2": 8, "alpha_2": -2, "nu_2": 0.3},
+                               {"terms": 2, "poisson": "each"}),
+    "blatz_ko": ({"mu": 11, "f": 0.3, "nu": 0.25}, {}),
+    "mooney_rivlin": ({"c10": 18, "c01": 5}, {"mechanisms": [{"type": "compressibility", "invariants": "isochoric", "law": "quadratic",
+                                                                "parameters": {"compliance": {"fixed": 0.01}}}]}),
+}
 
 
 def run(*words, folder=None):
@@ -118,6 +127,10 @@ class Cards(unittest.TestCase):
     def test_fibres_of_hgo_and_four_fibre_reproduce_a_sheet(self):
         for model in FIBRES:
             self.reproduce(self.sheet(model))
+
+    def test_foams_and_a_fitted_bulk_modulus_reproduce_a_sheet(self):
+        for name, (values, options) in FOAMS.items():
+            self.reproduce(self.sheet(name.split()[0], values, **options))
 
     def test_polynomials_of_three_five_and_nine_constants_reproduce_a_sheet(self):
         for terms, values in POLYNOMIALS.items():

@@ -2159,6 +2159,8 @@ class DescribedModel(TypedDict):
     options: list[DeclaredOption]
     #: Its energy. Absent where it says none.
     formula: NotRequired[str]
+    #: Whether its volume may change.
+    compressible: bool
     #: Numbers of history a point has; 0: no memory.
     history_size: int
     #: Parts that its energy is the sum of; empty where it is no sum.

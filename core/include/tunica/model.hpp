@@ -40,6 +40,9 @@ struct ModelDescription {
   std::size_t axis_history_size = 0;
   /// The energy as people write it, for a model whose formula depends on its options; may be empty.
   std::string formula = {};
+  /// Whether the volume may change: S = 2 ∂W/∂C is then the whole stress, and vanishes at rest. Tests solve for the
+  /// stretches of their free faces instead of a pressure; a test that cannot refuses the model.
+  bool compressible = false;
 };
 
 /// The input of one evaluation: a batch of n material points as a structure of arrays.
@@ -103,9 +106,9 @@ struct AxisResponse {
 
 /// The constitutive response of a material.
 ///
-/// Mathematics: an energy W(C; p) per reference volume, defined for det C ≠ 1 as well, and S = 2 ∂W/∂C. S carries no
-/// pressure and no isochoric split, so only its deviatoric part vanishes at rest. The test enforces incompressibility.
-/// Physics: docs/theory.md.
+/// Mathematics: an energy W(C; p) per reference volume, defined for det C ≠ 1 as well, and S = 2 ∂W/∂C. Unless
+/// ModelDescription::compressible is true, S carries no pressure and no isochoric split, so only its deviatoric part
+/// vanishes at rest, and the test enforces incompressibility. Physics: docs/theory.md.
 ///
 /// Required: describe() and evaluate(). Optional: evaluate_axes(), the fast path of point tests; remember(), the same
 /// for models with memory; parts(), through which mechanisms change an energy that is a sum. Few authors implement this
@@ -139,6 +142,13 @@ class Model {
   [[nodiscard]] virtual std::span<const std::unique_ptr<EnergyPart>> parts() const { return {}; }
   /// The model without memory whose response in principal axes remember() changes. Its parameters are the first ones.
   [[nodiscard]] virtual const Model& elastic() const { return *this; }
+  /// Whether the material keeps its volume at these parameters. Then incompressible() answers alone, bit for bit; only
+  /// derivatives by parameters are those of the compressible model.
+  [[nodiscard]] virtual bool keeps_volume([[maybe_unused]] std::span<const double> parameters) const {
+    return !describe().compressible;
+  }
+  /// The model that keeps its volume, where keeps_volume() is true. Its parameters are the first ones.
+  [[nodiscard]] virtual const Model& incompressible() const { return *this; }
   /// Whether memory changes anything at these parameters. If not, elastic() answers alone, bit for bit.
   [[nodiscard]] virtual bool remembers([[maybe_unused]] std::span<const double> parameters) const { return false; }
   /// One step of one point along its path in principal axes: adds memory to the response of elastic(), and takes the

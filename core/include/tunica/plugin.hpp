@@ -22,7 +22,7 @@
 
 /// Version of the interface. It rises with every change of an interface or of a struct that crosses the boundary. The
 /// host refuses plugins that were built for another number. docs/migration.md says what to change.
-#define TUNICA_PLUGIN_API 8
+#define TUNICA_PLUGIN_API 9
 
 #define TUNICA_TEXT_(x) #x
 /// The value of a macro as text, for TUNICA_ABI_FINGERPRINT.

@@ -115,6 +115,12 @@ struct Differencing {
 
 /// The properties of a test. They never change during the test's life.
 struct TestDescription {
+  /// The volume of the specimen, as the test simulates it.
+  enum class Volume {
+    kept,   ///< J = 1, whatever the model: compressible models are refused
+    free,   ///< J changes, as the load prescribes: incompressible models are refused
+    either  ///< J = 1 where Model::keeps_volume() says so; elsewhere the test solves for its free faces
+  };
   /// The test's own parameters, among them the imperfections that it can simulate.
   std::vector<Parameter> parameters;
   /// The null of each parameter: the value at which an imperfection vanishes. NaN marks an ordinary parameter, which
@@ -141,6 +147,8 @@ struct TestDescription {
   /// The names of the model's parameters that a prediction depends on. The host refuses a run that searches for others
   /// in this test, and names that the model does not have. None = all.
   std::optional<std::vector<std::string>> reads = {};
+  /// The materials that the test can carry. The host refuses others.
+  Volume volume = Volume::kept;
 };
 
 /// The input of one prediction. The test keeps nothing of it.

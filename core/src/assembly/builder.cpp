@@ -10,6 +10,7 @@
 #include "assembly/channels.hpp"
 #include "assembly/record.hpp"
 #include "data/nearest.hpp"
+#include "data/quantities.hpp"
 #include "experiment/materials.hpp"
 #include "text/units.hpp"
 #include "tunica/error.hpp"
@@ -106,6 +107,19 @@ void refuse_unread(const RunTest& test, const RunModel& model) {
   }
 }
 
+/// From a force over the unloaded section follows the nominal stress. Others follow from it where J = 1 only.
+void refuse_converted_force(const experiment::TestEntry& entry, const std::vector<Observable>& observables,
+                            const Model& model) {
+  if (!model.describe().compressible || entry.data.stress_measure == "first_piola_kirchhoff") return;
+  for (const auto& [name, column] : entry.data.columns)
+    if (const auto quantity = data::quantity_named(name, observables);
+        quantity && quantity->kind == data::Quantity::Kind::force)
+      throw InputError(fmt::format(
+          "test '{}': '{}' is a force, whose area changes by an unknown amount where the volume changes. Give "
+          "\"stress_measure\": \"first_piola_kirchhoff\"",
+          entry.name, name));
+}
+
 std::string words_on_unstated(std::vector<std::string> channels) {
   constexpr std::size_t told = 3;
   const std::size_t more = channels.size() > told ? channels.size() - told : 0;
@@ -183,6 +197,7 @@ void Builder::add_test(std::size_t number) {
   if (test.layers.empty()) refuse_unread(test, parts_.models.front());
   chain_parameters(test, layout.parameters.size());
   const auto& observables = catalogue_.tests().at(entry.type).factory.observables;
+  refuse_converted_force(entry, observables, *test.model);
   add_stretches(*test.test, observables, entry.name, parts_.strips, parts_.largest_stretch);
   const std::vector<std::string> names = experiment_.models_of(run_);
   if (entry.layers.empty() && !names.empty() && experiment_.model(names.front()).options.has(experiment::material_key))

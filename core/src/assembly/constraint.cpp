@@ -141,6 +141,11 @@ std::vector<ModelConstraint> make_constraints(const std::vector<experiment::Cons
   for (const auto& entry : entries) {
     const std::size_t before = all.size();
     for (std::size_t m = 0; m < models.size(); ++m) {
+      if (entry.type == "transverse_stability" && models[m]->describe().compressible)
+        throw InputError(
+            fmt::format("{}: the model '{}' changes its volume, and transverse stability is that of an incompressible "
+                        "material. Leave the constraint out",
+                        entry.pointer, models[m]->describe().type));
       if (entry.type == "transverse_stability")
         add_transverse(entry, m, *models[m], strips, all);
       else if (!models[m]->describe().admissible.empty())

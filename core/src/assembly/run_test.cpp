@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/format.h>
+
+#include "tunica/error.hpp"
+
 namespace tunica::assembly {
 namespace {
 
@@ -27,10 +31,36 @@ bool has_derivatives(const RunTest& test, const ModelDescription& model) {
   return model.axis_history_size > 0 && test.test->describe().path_derivatives && !off_the_path(test);
 }
 
+/// A test that simulates J = 1 cannot carry a model that changes its volume, nor one that changes it a model that does
+/// not.
+void refuse_volume(const RunTest& test, const RunModel& model) {
+  using Volume = TestDescription::Volume;
+  const ModelDescription& description = model.model->describe();
+  const Volume volume = test.test->describe().volume;
+  if (volume == Volume::kept && description.compressible)
+    throw InputError(fmt::format(
+        "test '{}': it simulates a specimen that keeps its volume, and the model '{}' ('{}') changes it. Choose an "
+        "incompressible model, or a test that solves for the volume: 'uniaxial', 'biaxial', 'simple_shear', "
+        "'confined_compression', 'volumetric'",
+        test.name, model.name, description.type));
+  if (volume == Volume::free && !description.compressible)
+    throw InputError(
+        fmt::format("test '{}': its load changes the volume, and the model '{}' ('{}') keeps it. Choose a compressible "
+                    "model, or add "
+                    "\"mechanisms\": [\"compressibility\"] to the model",
+                    test.name, model.name, description.type));
+  if (description.compressible && description.history_size > 0)
+    throw InputError(
+        fmt::format("model '{}': it changes its volume and remembers, which no test simulates; take one of "
+                    "the two out",
+                    model.name));
+}
+
 }  // namespace
 
 void assign_models(RunTest& test, const experiment::TestEntry& entry, const std::vector<RunModel>& models) {
   const auto add = [&test](const RunModel& model) {
+    refuse_volume(test, model);
     const std::size_t first = test.materials.values.size();
     const std::vector<double>& values = model.parameters.values;
     test.materials.values.insert(test.materials.values.end(), values.begin(), values.end());

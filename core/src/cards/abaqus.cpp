@@ -118,7 +118,18 @@ std::string hyperelastic_keyword(const Draft& draft, std::size_t most_ogden_term
   throw CannotExpress{"it has no energy with a limit of extension of the chains", "fit 'yeoh' or 'ogden'"};
 }
 
+// U = Σ 2 μ_i/α_i² [λ1^α_i + λ2^α_i + λ3^α_i − 3 + (J^(−α_i β_i) − 1)/β_i], the model's own convention
+std::string hyperfoam_keyword(const Draft& draft, std::span<const FoamTerm> terms) {
+  std::vector<double> values;
+  for (const auto& term : terms) values.insert(values.end(), {draft.stress * term.mu, term.alpha});
+  for (const auto& term : terms) values.insert(values.end(), term.nu);
+  return fmt::format("*HYPERFOAM, N={}\n", terms.size()) + data_lines(values);
+}
+
 std::string abaqus_card(const Draft& draft) {
+  if (is_foam(draft.material))
+    return fmt::format("*MATERIAL, NAME={}\n{}", draft.settings.name,
+                       hyperfoam_keyword(draft, foam_terms(draft.material)));
   if (draft.settings.subroutine) return by_subroutine(draft);
   if (has_fibres(draft.material)) return holzapfel(draft);
   return fmt::format("*MATERIAL, NAME={}\n{}", draft.settings.name, hyperelastic_keyword(draft, 6));

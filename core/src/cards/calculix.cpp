@@ -60,9 +60,20 @@ std::string elastic_fiber(const Draft& draft) {
   return card + joined_lines(constants);
 }
 
+/// CalculiX 2.20 breaks off with N=1: a single term is written as two halves.
+std::vector<FoamTerm> halved(const Material& material) {
+  std::vector<FoamTerm> terms = foam_terms(material);
+  if (terms.size() > 1) return terms;
+  terms.front().mu /= 2;
+  terms.push_back(terms.front());
+  return terms;
+}
+
 }  // namespace
 
 std::string calculix_card(const Draft& draft) {
+  if (is_foam(draft.material))
+    return fmt::format("*MATERIAL, NAME={}\n{}", draft.settings.name, hyperfoam_keyword(draft, halved(draft.material)));
   check_d1(draft);
   if (has_fibres(draft.material)) return elastic_fiber(draft);
   const std::string keyword = hyperelastic_keyword(draft, 3);

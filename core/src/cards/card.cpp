@@ -47,7 +47,28 @@ std::string_view program_of(Target target) {
 /// Whether the program has materials without change of volume.
 bool has_incompressible(Target target) { return target == Target::abaqus || target == Target::ansys; }
 
+/// The energy of the volume ratio that the program's cards have: K/2 (J − 1)², K/2 (ln J)², K/4 (J² − 1 − 2 ln J).
+std::string_view volume_law_of(Target target, const Material& material) {
+  if (target == Target::febio) return "logarithmic";
+  return target == Target::abaqus && has_fibres(material) ? "simo" : "quadratic";
+}
+
+/// Of a material whose compressibility was fitted.
+double fitted_bulk(Target target, const Material& material, const CardSettings& settings) {
+  if (settings.bulk_ratio)
+    throw InputError("bulk ratio: found one beside a fit that has its own bulk modulus; leave it out");
+  if (target == Target::lsdyna)
+    throw CannotExpress{"its cards take Poisson's ratio near 1/2, and the fit has a bulk modulus", ""};
+  const std::string_view law = volume_law_of(target, material);
+  if (material.volume_law != law)
+    throw CannotExpress{fmt::format("its energy of the volume is '{}', and the fit has '{}'", law, material.volume_law),
+                        fmt::format("fit \"compressibility\" with \"law\": \"{}\"", law)};
+  return material.bulk;
+}
+
 double bulk_of(Target target, const Material& material, const CardSettings& settings) {
+  if (is_foam(material)) return 0;
+  if (material.bulk > 0) return fitted_bulk(target, material, settings);
   const double usual = has_incompressible(target) ? 0 : target == Target::lsdyna ? 1e3 : 1e4;
   const double ratio = settings.bulk_ratio.value_or(usual);
   if (!std::isfinite(ratio) || ratio < 0 || (ratio > 0 && ratio < 10))
@@ -60,6 +81,8 @@ double bulk_of(Target target, const Material& material, const CardSettings& sett
 }
 
 std::string paragraph_on_volume(const Draft& draft) {
+  if (is_foam(draft.material) || draft.material.bulk > 0)
+    return "Volume: compressible, as fitted; take full integration or elements without volumetric locking.";
   if (draft.bulk == 0) return "Volume: incompressible, as fitted; take hybrid (mixed) elements.";
   // In tension P(λ) = s(λ J^(−1/3))/λ with J − 1 = σ/(3K): off by n σ/(9K), n = d ln s/d ln λ. With n = 4.5: 0.1 % at
   // K/500.
@@ -72,6 +95,10 @@ std::string paragraph_on_volume(const Draft& draft) {
 }
 
 std::string card_of(Target target, const Draft& draft) {
+  if (is_foam(draft.material) && target != Target::abaqus && target != Target::calculix)
+    throw CannotExpress{"it has no energy of a foam with a volume term for every power",
+                        "fit an incompressible model with "
+                        "the mechanism \"compressibility\""};
   switch (target) {
     case Target::febio:
       return febio_card(draft);
@@ -91,8 +118,8 @@ std::string card_of(Target target, const Draft& draft) {
 bool can_express(Target target, const Material& material, bool subroutine) {
   const CardSettings settings{.density = 1000, .subroutine = subroutine};
   Draft draft{material, settings, settings.units.stress_per_kPa};
-  draft.bulk = draft.stress * bulk_of(target, material, settings);
   try {
+    draft.bulk = draft.stress * bulk_of(target, material, settings);
     (void)card_of(target, draft);
   } catch (const CannotExpress&) {
     return false;
@@ -159,8 +186,8 @@ std::string Draft::density() const {
 std::string write_card(Target target, const Material& material, const CardSettings& settings) {
   check_name(settings.name);
   Draft draft{material, settings, settings.units.stress_per_kPa};
-  const std::vector<std::string> known = {"neo_hooke", "mooney_rivlin", "yeoh",           "gent",      "ogden",
-                                          "hgo",       "gho",           "holzapfel_2015", "four_fibre"};
+  const std::vector<std::string> known = {"neo_hooke", "mooney_rivlin",  "yeoh",       "gent",      "ogden",   "hgo",
+                                          "gho",       "holzapfel_2015", "four_fibre", "hyperfoam", "blatz_ko"};
   if (std::find(known.begin(), known.end(), material.type) == known.end())
     throw InputError(fmt::format("no card is known for the model '{}'. {}", data::excerpt(material.type),
                                  data::suggestion(material.type, known)));
@@ -168,7 +195,11 @@ std::string write_card(Target target, const Material& material, const CardSettin
     throw InputError(
         fmt::format("the user subroutine is for fibre models in Abaqus, and this is '{}' for {}; leave it out",
                     material.type, program_of(target)));
-  draft.bulk = draft.stress * bulk_of(target, material, settings);
+  try {
+    draft.bulk = draft.stress * bulk_of(target, material, settings);
+  } catch (const CannotExpress& refusal) {
+    refuse(target, material, refusal);
+  }
   std::vector<std::string> remarks = {fmt::format("Material card for {}.", program_of(target))};
   remarks.insert(remarks.end(), settings.remarks.begin(), settings.remarks.end());
   remarks.insert(remarks.end(), {fmt::format("Units: {}, {}, {}, s.", settings.units.length, settings.units.force,

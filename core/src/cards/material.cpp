@@ -48,10 +48,27 @@ std::vector<OgdenTerm> ogden_terms(const Material& material) {
                  {value_of(material, fmt::format("mu_{}", k)), value_of(material, fmt::format("alpha_{}", k))});
     if (terms.back().alpha == 0)
       throw InputError(
-          fmt::format("model 'ogden': the exponent alpha_{} is 0, and every program divides by it; keep it off 0 by "
-                      "its bounds, or leave the term out",
-                      k));
+          fmt::format("model '{}': the exponent alpha_{} is 0, and every program divides by it; keep it off 0 by its "
+                      "bounds, or leave the term out",
+                      material.type, k));
   }
+  return terms;
+}
+
+bool is_foam(const Material& material) { return material.type == "hyperfoam" || material.type == "blatz_ko"; }
+
+std::vector<FoamTerm> foam_terms(const Material& material) {
+  if (material.type == "blatz_ko") {
+    const double mu = value_of(material, "mu"), f = value_of(material, "f"), nu = value_of(material, "nu");
+    std::vector<FoamTerm> terms;
+    if (f != 0) terms.push_back({mu * f, 2, nu});
+    if (f != 1) terms.push_back({mu * (1 - f), -2, nu});
+    return terms;
+  }
+  std::vector<FoamTerm> terms;
+  const bool shared = material.values.contains("nu");
+  for (const OgdenTerm& term : ogden_terms(material))
+    terms.push_back({term.mu, term.alpha, value_of(material, shared ? "nu" : fmt::format("nu_{}", terms.size() + 1))});
   return terms;
 }
 
@@ -93,6 +110,8 @@ double stiffness_at_rest(const Material& material) {
     stiffness = 2 * (value_of(material, "c10") + value_of(material, "c01"));
   } else if (material.type == "yeoh") {
     stiffness = 2 * value_of(material, "c10");
+  } else if (is_foam(material)) {
+    for (const auto& term : foam_terms(material)) stiffness += term.mu;
   } else if (material.type == "ogden") {
     for (const auto& term : ogden_terms(material)) stiffness += 0.5 * term.mu * term.alpha;
   } else {

@@ -12,6 +12,13 @@ struct Material {
   std::string type = {};                      ///< of the model: "yeoh"
   std::map<std::string, double> values = {};  ///< of its parameters by name, in base units (kPa, deg, 1)
   std::string fibre_switch = "strain";        ///< the option of fibre models
+  double bulk = 0;                            ///< fitted bulk modulus, kPa; 0 = the fit is incompressible
+  std::string volume_law = "quadratic";       ///< energy of the volume ratio that goes with it
+};
+
+/// One term of a foam, 2μ/α² [Σ λ^α − 3 + (J^(−αβ) − 1)/β], β = ν/(1 − 2ν).
+struct FoamTerm {
+  double mu, alpha, nu;
 };
 
 /// One term of Ogden's energy in his convention, μ/α (Σ λ^α − 3).
@@ -37,6 +44,9 @@ struct FibreEnergy {
 /// The value of a parameter; throws InputError where it is missing or not finite.
 double value_of(const Material& material, const std::string& parameter);
 std::vector<OgdenTerm> ogden_terms(const Material& material);
+/// hyperfoam and blatz_ko.
+bool is_foam(const Material& material);
+std::vector<FoamTerm> foam_terms(const Material& material);
 /// The constants of `mooney_rivlin`: 2, 3 (with c11), 5 (to the second degree) or 9 (to the third).
 std::size_t mooney_terms(const Material& material);
 bool has_fibres(const Material& material);

@@ -36,6 +36,9 @@ std::string joined_lines(std::span<const std::string> values);
 /// *HYPERELASTIC of an isotropic model in the keywords that Abaqus and CalculiX share; "" for another model.
 std::string hyperelastic_keyword(const Draft& draft, std::size_t most_ogden_terms);
 
+/// *HYPERFOAM of these terms in the keywords that Abaqus and CalculiX share: μ and α of every term, then every ν.
+std::string hyperfoam_keyword(const Draft& draft, std::span<const FoamTerm> terms);
+
 std::string calculix_card(const Draft& draft);
 std::string abaqus_card(const Draft& draft);
 std::string febio_card(const Draft& draft);

@@ -64,6 +64,7 @@ void write_stability_tables(const std::filesystem::path& directory, const std::v
     const auto& assembly = *subject.assembly;
     for (std::size_t m = 0; m < assembly.models().count(); ++m) {
       const auto parameters = assembly.models().parameters(m, subject.free);
+      if (!assembly.models().model(m).keeps_volume(parameters)) continue;  // both tables are of J = 1
       const std::string label = text::csv_cell(
           assembly.models().count() > 1 ? subject.label + ' ' + assembly.models().name(m) : subject.label);
       for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})

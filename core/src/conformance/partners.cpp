@@ -5,6 +5,7 @@
 
 #include "tunica/models/arterial_fibres.hpp"
 #include "tunica/models/convex_laws.hpp"
+#include "tunica/models/volume_energy.hpp"
 
 namespace tunica::conformance {
 namespace {
@@ -17,6 +18,38 @@ struct Across {
   static InvariantOf<T> invariant(std::span<const T> p) {
     return {.across = T(1), .angle = p[theta] * degree};
   }
+};
+
+/// W = μ/2 (I1 − 3) − μ ln J + μ (ln J)², a compressible neo-Hookean rubber (Simo, Pister 1984).
+class CompressibleRubber final : public Model {
+ public:
+  CompressibleRubber() {
+    description_.type = "compressible rubber";
+    description_.parameters = {arterial::mu()};
+    description_.compressible = true;
+  }
+  [[nodiscard]] const ModelDescription& describe() const override { return description_; }
+  Status evaluate(const MaterialPoints& points, const MaterialResponse& out) const override {
+    const std::size_t n = points.count;
+    const double stiffness = points.parameters[0];
+    for (const auto& values : {out.energy, out.stress, out.tangent, out.stress_dp})
+      std::fill(values.begin(), values.end(), 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      VolumeEnergy::Tensor C;
+      for (std::size_t c = 0; c < 6; ++c) C[c] = points.C[c * n + i];
+      const VolumeEnergy volume(C);
+      const double theta = volume.log_volume();
+      if (!out.energy.empty()) out.energy[i] = stiffness * (0.5 * (C[0] + C[1] + C[2] - 3));
+      for (std::size_t c = 0; c < 3 && !out.stress.empty(); ++c) out.stress[c * n + i] = stiffness;
+      for (std::size_t c = 0; c < 3 && !out.stress_dp.empty(); ++c) out.stress_dp[c * n + i] = 1;
+      volume.add(stiffness * (theta * theta - theta), stiffness * (2 * theta - 1), 2 * stiffness, out, n, i);
+      volume.add_parameter(0, 2 * theta - 1, out, n, i);
+    }
+    return {};
+  }
+
+ private:
+  ModelDescription description_;
 };
 
 std::unique_ptr<Model> with_fibres(const std::string& fibre_switch) {
@@ -46,6 +79,8 @@ std::unique_ptr<Model> rubber() {
 }
 std::unique_ptr<Model> fibrous() { return with_fibres("none"); }
 std::unique_ptr<Model> slack_fibrous() { return with_fibres("strain"); }
+
+std::unique_ptr<Model> compressible_rubber() { return std::make_unique<CompressibleRubber>(); }
 
 std::vector<Material> materials() {
   const std::vector<double> wall{30, 20, 0.6, 42, 15};

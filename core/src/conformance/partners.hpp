@@ -26,7 +26,9 @@ std::unique_ptr<Model> rubber();
 std::unique_ptr<Model> fibrous();
 /// The same with fibres that carry load while stretched.
 std::unique_ptr<Model> slack_fibrous();
-/// The three, at moderate parameters.
+/// A compressible rubber, for loads that change the volume.
+std::unique_ptr<Model> compressible_rubber();
+/// The first three, at moderate parameters.
 std::vector<Material> materials();
 
 /// Every declared default; where the user must give an option, what its bounds and choices allow.

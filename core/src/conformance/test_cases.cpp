@@ -104,12 +104,14 @@ struct Attempt {
   std::string refusal;     ///< empty = the guess is a case
   bool no_number = false;  ///< refused since a value is no number under the status ok
 };
+template <class Suiting>
 Attempt attempt_with(const plugins::Catalogue::Entry<TestFactory>& entry, const OwnedSetup& guess,
-                     const Material& material) {
+                     const Suiting& suiting) {
   Attempt one;
   try {
     one.test = plugins::create_bare(entry, guess.setup());
     const std::vector<double> own = own_values(one.test->describe());
+    const Material& material = suiting(*one.test);
     const Prediction found = predict(*one.test, {*material.model, material.parameters, own});
     if (!found.status.ok())
       one.refusal = found.status.reason().empty() ? "it fails without a reason" : found.status.reason();
@@ -125,18 +127,23 @@ Attempt attempt_with(const plugins::Catalogue::Entry<TestFactory>& entry, const 
 /// As synthetic_case(), with these choices made.
 TestCase found_case(const plugins::Catalogue::Entry<TestFactory>& entry, const Choices& pinned, int patience,
                     std::uint64_t seed) {
-  const Material material = materials().front();
+  const Material fibrous = materials().front();
+  const Material foam{"a compressible rubber", compressible_rubber(), {30}};
   SetupSampler guesses(entry.factory, pinned, seed);
   std::string last = "it declares no channel";
   std::optional<TestCase> no_number;
+  const auto suiting = [&](const Test& test) -> const Material& {
+    return test.describe().volume == TestDescription::Volume::free ? foam : fibrous;
+  };
   const auto made = [&](OwnedSetup guess, std::shared_ptr<Test> test) -> TestCase {
     std::vector<double> own = own_values(test->describe());
+    const Material& material = suiting(*test);
     return {"", std::move(test), std::move(guess), std::move(own), material};
   };
   for (int attempt = 0; attempt < patience; ++attempt) {
     OwnedSetup guess = guesses.next();
     if (guess.channels.empty()) continue;
-    Attempt one = attempt_with(entry, guess, material);
+    Attempt one = attempt_with(entry, guess, suiting);
     if (!one.refusal.empty()) {
       last = std::move(one.refusal);
       if (one.no_number && !no_number) no_number = made(guess, std::move(one.test));
@@ -149,7 +156,7 @@ TestCase found_case(const plugins::Catalogue::Entry<TestFactory>& entry, const C
         continue;
       OwnedSetup more = guess;
       more.channels.push_back(observable.name);
-      if (Attempt larger = attempt_with(entry, more, material); larger.refusal.empty()) {
+      if (Attempt larger = attempt_with(entry, more, suiting); larger.refusal.empty()) {
         guess = more;
         one = std::move(larger);
       }

@@ -124,17 +124,33 @@ FittedMaterial fitted_material(const ExportRequest& request) {
   const auto names = models_of(run, models);
   fitted.name = chosen_model(names, request.model, fitted.run, file);
   const Json& model = member(models, fitted.name);
-  for (const Json& mechanism : list(model, "mechanisms"))
-    throw InputError(
-        fmt::format("{}: the mechanism '{}' changes the model '{}', and no card has it; fit and export a model without "
-                    "it, or one that contains it",
-                    file, mechanism.is_string() ? mechanism.get<std::string>() : word(mechanism, "type"), fitted.name));
+  bool compressible = false;
+  for (const Json& mechanism : list(model, "mechanisms")) {
+    const std::string id = mechanism.is_string() ? mechanism.get<std::string>() : word(mechanism, "type");
+    const bool isochoric = !mechanism.is_string() && word(mechanism, "invariants") == "isochoric";
+    compressible = id == "compressibility" && isochoric;
+    if (id == "compressibility" && !compressible)
+      throw InputError(fmt::format(
+          "{}: the mechanism 'compressibility' of the model '{}' has full invariants, and the cards' materials "
+          "have isochoric ones; fit it with \"invariants\": \"isochoric\"",
+          file, fitted.name));
+    if (!compressible)
+      throw InputError(fmt::format(
+          "{}: the mechanism '{}' changes the model '{}', and no card has it; fit and export a model without "
+          "it, or one that contains it",
+          file, id, fitted.name));
+    const std::string law = word(mechanism, "law");
+    fitted.material.volume_law = law.empty() ? "logarithmic" : law;
+  }
   fitted.material.type = word(model, "type");
   if (const std::string chosen = word(model, "fibre_switch"); !chosen.empty()) fitted.material.fibre_switch = chosen;
   Parameters parameters;
   for (const Json& group : {member(member(run, "best"), "parameters"), member(run, "fixed")})
     for (const auto& [name, entry] : group.items())
-      if (const std::string own = own_name(name, fitted.name, names.size() > 1); !own.empty()) {
+      if (compressible && name.ends_with("compressibility.compliance")) {
+        const double compliance = report::number(entry, "value");
+        fitted.material.bulk = compliance > 0 ? 1 / compliance : 0;
+      } else if (const std::string own = own_name(name, fitted.name, names.size() > 1); !own.empty()) {
         fitted.material.values[own] = report::number(entry, "value");
         parameters.emplace_back(own, entry);
       }

@@ -206,6 +206,17 @@ const Model& GuardedModel::elastic() const {
   return &inner == model_.get() ? *this : inner;
 }
 
+bool GuardedModel::keeps_volume(std::span<const double> parameters) const {
+  if (!description_->compressible) return true;
+  return guarded(plugin_, "keeps_volume", [&] { return model_->keeps_volume(parameters); });
+}
+
+const Model& GuardedModel::incompressible() const {
+  const UsualArithmetic arithmetic;
+  const Model& inner = model_->incompressible();
+  return &inner == model_.get() ? *this : inner;
+}
+
 void GuardedModel::remember(const AxisStep& step) const {
   const UsualArithmetic arithmetic;
   model_->remember(step);

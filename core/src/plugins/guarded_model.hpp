@@ -31,6 +31,8 @@ class GuardedModel final : public Model {
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override;
   [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return model_->parts(); }
   [[nodiscard]] const Model& elastic() const override;
+  [[nodiscard]] bool keeps_volume(std::span<const double> parameters) const override;
+  [[nodiscard]] const Model& incompressible() const override;
   [[nodiscard]] bool remembers(std::span<const double> parameters) const override;
   void remember(const AxisStep& step) const override;
 

@@ -82,6 +82,10 @@ std::optional<bool> Admissibility::transversely_stable() const {
 }
 
 std::vector<std::string> Admissibility::sentences() const {
+  if (changes_volume)
+    return {
+        "NOT ASSESSED: the material changes its volume, and transverse stability, ellipticity and Drucker's "
+        "condition are those of incompressible materials"};
   std::vector<std::string> all;
   for (const TransverseVerdict& verdict : transverse) all.push_back(words(verdict, domain));
   const std::string elliptic = followed_in_words(ellipticity.followed, domain.largest);
@@ -110,6 +114,14 @@ std::vector<std::string> Admissibility::sentences() const {
 Admissibility judge_admissibility(const Model& model, std::span<const double> parameters, const Domain& domain) {
   Admissibility found;
   found.domain = domain;
+  if (model.describe().compressible) {
+    if (model.keeps_volume(parameters)) {
+      const Model& bare = model.incompressible();
+      return judge_admissibility(bare, parameters.first(bare.describe().parameters.size()), domain);
+    }
+    found.changes_volume = true;
+    return found;
+  }
   for (std::size_t axis = 0; axis < 2; ++axis) {
     std::vector<double> judged = domain.strips[axis];
     judged.insert(judged.end(), domain.asked[axis].begin(), domain.asked[axis].end());

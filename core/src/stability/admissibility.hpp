@@ -26,6 +26,7 @@ struct Admissibility {
   EllipticityVerdict ellipticity;
   std::optional<DruckerVerdict> drucker;  ///< isotropic models
   Domain domain;
+  bool changes_volume = false;  ///< of a compressible material nothing of the above is assessed
 
   /// λ3 falls at every stretch that was measured or asked for; none where there is none, or no answer at one of them.
   [[nodiscard]] std::optional<bool> transversely_stable() const;

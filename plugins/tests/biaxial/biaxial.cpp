@@ -3,8 +3,10 @@
 #include <memory>
 #include <numeric>
 
+#include "compressible.hpp"
 #include "response.hpp"
 #include "sheet.hpp"
+#include "tunica/detail/compressible_prediction.hpp"
 #include "tunica/detail/vector_level.hpp"
 #include "tunica/detail/vector_math.hpp"
 #include "tunica/plugin.hpp"
@@ -34,6 +36,7 @@ class Biaxial final : public Test {
       description_.diagnostic_units.emplace_back("kPa");
     }
     description_.path_derivatives = sheet_.angle == 0;
+    description_.volume = TestDescription::Volume::either;
     rows_.count = sheet_.count();
     for (std::size_t k = 0; k < sheet_.columns.size(); ++k) {
       rows_.abscissae.push_back({sheet_.names[k], sheet_.columns[k]});
@@ -49,6 +52,14 @@ class Biaxial final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
+    const auto columns = input.abscissae.empty() ? std::span<const std::span<const double>>(bound_) : input.abscissae;
+    if (free_faces::changes_volume(input, output)) return predict_compressible(sheet_, columns, input, output);
+    return predict_at_constant_volume(columns, free_faces::without_compressibility(input), output);
+  }
+
+ private:
+  Status predict_at_constant_volume(std::span<const std::span<const double>> columns, const TestInput& input,
+                                    const TestOutput& output) const {
     const ModelDescription& model = input.model.describe();
     const Response::Wants wants{!output.abscissa_derivative.empty(), !output.jacobian.empty()};
     const bool followed = model.axis_history_size > 0 && sheet_.angle == 0;
@@ -56,7 +67,6 @@ class Biaxial final : public Test {
       return Status::failed("biaxial: no exact Jacobian along the path of a model with history");
     if (!model.parameter_derivatives && !followed && wants.parameters)
       return Status::failed("biaxial: the model has no parameter derivatives");
-    const auto columns = input.abscissae.empty() ? std::span<const std::span<const double>>(bound_) : input.abscissae;
     const std::size_t n = rows_.count, rows = sheet_.channels.size() * n, parameters = input.model_parameters.size();
 
     thread_local Response r;
@@ -88,7 +98,6 @@ class Biaxial final : public Test {
     return {};
   }
 
- private:
   void set_stretches(std::span<const std::span<const double>> columns, std::span<double> c) const {
     const std::size_t n = rows_.count;
     const InPlane held = sheet_.held();

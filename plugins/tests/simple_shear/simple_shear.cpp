@@ -69,6 +69,8 @@ struct SimpleShear {
     if (k == 0) return product(a_, S, b_) + gamma * product(b_, S, b_);
     return product(b_, S, b_) - product(c_, S, c_);
   }
+  /// The plates hold the area; a compressible block changes its thickness along c.
+  [[nodiscard]] std::array<double, 3> free_face() const { return c_; }
   [[nodiscard]] bool admits(double gamma) const { return std::isfinite(gamma); }
 
  private:

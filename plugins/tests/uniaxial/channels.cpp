@@ -18,12 +18,14 @@ double measure_factor(Measure measure, double stretch) {
 
 double channel_value(Channel channel, Measure measure, const RowSolution& row) {
   if (channel == Channel::stress) return row.stress * measure_factor(measure, row.stretch);
+  if (channel == Channel::volume_ratio) return 1;
   const double transverse = std::exp(row.y / 2);
   return channel == Channel::transverse_stretch ? transverse : 1 / (row.stretch * transverse);
 }
 
 double channel_derivative(Channel channel, Measure measure, const RowSolution& row, double stress_p, double y_p) {
   if (channel == Channel::stress) return stress_p * measure_factor(measure, row.stretch);
+  if (channel == Channel::volume_ratio) return 0;
   const double transverse = std::exp(row.y / 2);
   return channel == Channel::transverse_stretch ? transverse * y_p / 2 : -y_p / (2 * row.stretch * transverse);
 }
@@ -31,6 +33,7 @@ double channel_derivative(Channel channel, Measure measure, const RowSolution& r
 double channel_by_stretch(Channel channel, Measure measure, const RowSolution& row) {
   if (channel == Channel::stress)
     return (row.stress_by_l - power(measure) * row.stress) * measure_factor(measure, row.stretch) / row.stretch;
+  if (channel == Channel::volume_ratio) return 0;
   const double transverse = std::exp(row.y / 2);
   if (channel == Channel::transverse_stretch) return transverse * row.y_by_l / (2 * row.stretch);
   return -(1 + row.y_by_l / 2) / (row.stretch * row.stretch * transverse);

@@ -9,8 +9,10 @@
 
 #include "along_radius.hpp"
 #include "axes_path.hpp"
+#include "compressible.hpp"
 #include "memory_path.hpp"
 #include "tensor_path.hpp"
+#include "tunica/detail/compressible_prediction.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::uniaxial {
@@ -61,6 +63,7 @@ class Uniaxial final : public Test {
     description_.nulls = {0};
     description_.diagnostics = {"transverse_stretch", "normal_stretch"};
     description_.diagnostic_units = {"1", "1"};
+    description_.volume = TestDescription::Volume::either;
     const bool along_an_axis = strip_.turn == 0 && !radial_;
     if (along_an_axis) description_.free_strip_axis = strip_.loaded;
     description_.path_derivatives = along_an_axis;
@@ -71,12 +74,17 @@ class Uniaxial final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
+    if (free_faces::changes_volume(input, output)) return predict_compressible(strip_, radial_, input, output);
+    return predict_at_constant_volume(free_faces::without_compressibility(input), output);
+  }
+
+ private:
+  Status predict_at_constant_volume(const TestInput& input, const TestOutput& output) const {
     if (!radial_ || is_isotropic(input)) return predict_in_plane(input, output);
     const AlongRadius turned(input.model);
     return predict_in_plane({turned, input.model_parameters, input.test_parameters, input.abscissae}, output);
   }
 
- private:
   Status predict_in_plane(const TestInput& input, const TestOutput& output) const {
     const ModelDescription& model = input.model.describe();
     const double misalignment = input.test_parameters[0];
@@ -150,6 +158,7 @@ class Uniaxial final : public Test {
     for (const std::string& channel : setup.rows.channels)
       strip_.channels.push_back(channel == "transverse_stretch" ? Channel::transverse_stretch
                                 : channel == "normal_stretch"   ? Channel::normal_stretch
+                                : channel == "volume_ratio"     ? Channel::volume_ratio
                                                                 : Channel::stress);
     rows_.count = strip_.stretch.size();
     rows_.abscissae.front().values = strip_.stretch;
@@ -183,7 +192,9 @@ TestFactory factory() {
        {"transverse_stretch", "1", Observable::Role::channel, false,
         "In-plane stretch across the strip; of a radial one the circumferential stretch.", Observable::Kind::stretch},
        {"normal_stretch", "1", Observable::Role::channel, false,
-        "Stretch through the thickness; of a radial strip the axial stretch.", Observable::Kind::stretch}},
+        "Stretch through the thickness; of a radial strip the axial stretch.", Observable::Kind::stretch},
+       {"volume_ratio", "1", Observable::Role::channel, false,
+        "Volume over that of the unloaded strip; 1 unless the model is compressible.", Observable::Kind::plain}},
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Uniaxial>(setup); },
       own_parameters()};
 }

@@ -9,7 +9,7 @@
 namespace tunica::uniaxial {
 
 enum class Measure { cauchy, first_piola_kirchhoff, second_piola_kirchhoff };
-enum class Channel { stress, transverse_stretch, normal_stretch };
+enum class Channel { stress, transverse_stretch, normal_stretch, volume_ratio };
 
 /// The strip as it was bound: what both paths need. Axes: `loaded` is the material axis the strip is pulled along
 /// (0 = circumferential, 1 = axial), `transverse` the other in-plane axis, 2 the normal (radial) one.
@@ -30,7 +30,7 @@ struct RowSolution {
 };
 
 /// The channel's value, and its derivative from those of Cauchy stress and y at fixed stretch.
-///   P = σ/λ1, S = σ/λ1²; λ2 = e^{y/2}; λ3 = 1/(λ1 λ2).
+///   P = σ/λ1, S = σ/λ1²; λ2 = e^{y/2}; λ3 = 1/(λ1 λ2); J = 1.
 double channel_value(Channel channel, Measure measure, const RowSolution& row);
 double channel_derivative(Channel channel, Measure measure, const RowSolution& row, double stress_p, double y_p);
 double channel_by_stretch(Channel channel, Measure measure, const RowSolution& row);

@@ -11,6 +11,7 @@
 
 #include <ceres/jet.h>
 
+#include "tunica/detail/compressible_prediction.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica {
@@ -37,6 +38,14 @@ namespace tunica {
 /// pressure that S leaves open. Hence ∂y/∂p_j = channel(k, x, ∂S/∂p_j). The derivative by the abscissa follows by
 /// automatic differentiation, with dS/dx = ½ (2 ∂S/∂C) : dC/dx.
 ///
+/// Compressible models are refused, unless the deformation and the channels say what becomes of J, S then being the
+/// whole stress: `static constexpr auto volume = TestDescription::Volume::free;` where the deformation prescribes all
+/// of C, or
+///
+///     std::array<double, 3> free_face() const;  // unit vector d (t, z, r) of a face without traction, C d ∥ d
+///
+/// where the squared stretch along d follows from d·S d = 0. Where J = 1, it is the one that deformation() has.
+///
 /// Models with history are refused. Threads and failure: as Test.
 template <class Geometry>
 class PointTest final : public Test {
@@ -60,6 +69,10 @@ class PointTest final : public Test {
     rows_.count = x_.size();
     rows_.abscissae = {{abscissa_.name, x_}};
     rows_.channels = setup.rows.channels;
+    if constexpr (requires { Geometry::volume; })
+      description_.volume = Geometry::volume;
+    else if (has_free_face)
+      description_.volume = TestDescription::Volume::either;
     if constexpr (requires { Geometry::diagnostics; }) {
       for (const auto& [name, unit] : Geometry::diagnostics) {
         description_.diagnostics.push_back(name);
@@ -72,6 +85,65 @@ class PointTest final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
+    if (free_faces::changes_volume(input, output)) {
+      const std::span<const double> bound(x_);
+      return free_faces::predict(
+          Specimen{*this},
+          input.abscissae.empty() ? std::span<const std::span<const double>>(&bound, 1) : input.abscissae, input,
+          output);
+    }
+    if (description_.volume == TestDescription::Volume::free)
+      return Status::failed(begin() +
+                            "the material keeps its volume at these parameters, and this load changes it; keep the "
+                            "compressibility off 0");
+    return predict_at_constant_volume(free_faces::without_compressibility(input), output);
+  }
+
+ private:
+  static constexpr bool has_free_face = requires(const Geometry& geometry) { geometry.free_face(); };
+
+  /// The geometry as free_faces::predict asks for it.
+  struct Specimen {
+    const PointTest& test;
+
+    [[nodiscard]] std::size_t count() const { return test.rows_.count; }
+    [[nodiscard]] std::size_t channels() const { return test.channels_.size(); }
+    [[nodiscard]] static std::size_t faces() { return has_free_face ? 1 : 0; }
+    template <class T>
+    std::array<T, 6> face(std::size_t, std::span<const T>) const {
+      std::array<T, 6> out{};
+      if constexpr (has_free_face) {
+        const std::array<double, 3> d = test.geometry_.free_face();
+        const free_faces::Tensor dd = free_faces::dyad(d, d);
+        for (std::size_t c = 0; c < 6; ++c) out[c] = T(dd[c]);
+      }
+      return out;
+    }
+    template <class T>
+    std::array<T, 6> prescribed(std::span<const T> x, std::span<const T> q) const {
+      std::array<T, 6> C = test.geometry_.template deformation<T>(x[0]);
+      if constexpr (has_free_face) {
+        const std::array<T, 6> dd = face(0, q);
+        const T along = free_faces::contract(dd, C);
+        for (std::size_t c = 0; c < 6; ++c) C[c] -= along * dd[c];
+      }
+      return C;
+    }
+    template <class T>
+    T channel(std::size_t k, std::span<const T> x, std::span<const T>, const std::array<T, 6>&,
+              const std::array<T, 6>& S) const {
+      return test.geometry_.template channel<T>(test.channels_[k], x[0], S);
+    }
+    [[nodiscard]] double diagnostic(std::size_t, std::span<const double>, const std::array<double, 6>&,
+                                    const std::array<double, 6>&) const {
+      return 0;  // they follow from the abscissa: set_diagnostics()
+    }
+    [[nodiscard]] std::string row_name(std::size_t row, std::span<const double> x) const {
+      return begin() + test.place(row, x[0]);
+    }
+  };
+
+  Status predict_at_constant_volume(const TestInput& input, const TestOutput& output) const {
     const ModelDescription& model = input.model.describe();
     if (model.history_size > 0)
       return Status::failed(
@@ -110,7 +182,6 @@ class PointTest final : public Test {
     return {};
   }
 
- private:
   using Jet = ceres::Jet<double, 1>;
 
   static std::string begin() { return std::string(Geometry::type) + ": "; }

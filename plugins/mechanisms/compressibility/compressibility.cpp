@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// The volume of a material that the base takes for incompressible changes: with C̄ = J^(−2/3) C and c the
+// compressibility 1/κ,
+//
+//   isochoric  W = W₀(C̄) + u(J)/c,   full  W = W₀(C) − a ln J + u(J)/c,   a = S₀(1), so that nothing is stressed at
+//   rest
+//
+//   S = J^(−2/3) Dev S̄ + u_θ/c C⁻¹,  Dev X = X − ⅓ (X : C) C⁻¹   (Flory 1961; Holzapfel 2000, Nonlinear Solid
+//   Mechanics, §6.4; the laws u in Doll, Schweizerhof, J. Appl. Mech. 67:17, 2000)
+//
+// At c = 0 the base answers alone. Derivatives there are those at a bulk modulus of 10⁸ times the stiffness at rest.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "tunica/models/volume_energy.hpp"
+#include "tunica/plugin.hpp"
+
+namespace tunica::compressibility {
+namespace {
+
+using Tensor = VolumeEnergy::Tensor;
+constexpr double stiffest = 1e8;
+
+/// u with u_θ and u_θθ at θ = ln J; u_θθ = 1 at rest, so that κ is the bulk modulus there.
+struct VolumeLaw {
+  double u, by_theta, by_theta_twice;
+};
+VolumeLaw volume_law(const std::string& name, double theta) {
+  const double J = std::exp(theta);
+  if (name == "logarithmic") return {0.5 * theta * theta, theta, 1};
+  if (name == "simo") return {0.25 * (std::expm1(2 * theta) - 2 * theta), 0.5 * std::expm1(2 * theta), J * J};
+  if (name == "ogden") {
+    const double fall = std::expm1(-9 * theta);
+    return {(9 * theta + fall) / 81, -fall / 9, fall + 1};
+  }
+  const double less = std::expm1(theta);
+  return {0.5 * less * less, J * less, J * (2 * J - 1)};
+}
+
+class CompressibleModel final : public Model {
+ public:
+  CompressibleModel(std::unique_ptr<Model> base, const std::vector<Parameter>& own, std::string law, bool isochoric)
+      : base_(std::move(base)),
+        description_(base_->describe()),
+        count_(description_.parameters.size()),
+        law_(std::move(law)),
+        isochoric_(isochoric) {
+    description_.parameters.insert(description_.parameters.end(), own.begin(), own.end());
+    description_.compressible = true;
+    description_.principal_axes = false;
+    description_.energy_derivatives = false;
+  }
+
+  [[nodiscard]] const ModelDescription& describe() const override { return description_; }
+  [[nodiscard]] bool keeps_volume(std::span<const double> parameters) const override { return parameters[count_] == 0; }
+  [[nodiscard]] const Model& incompressible() const override { return *base_; }
+
+  Status evaluate(const MaterialPoints& points, const MaterialResponse& out) const override {
+    const std::size_t n = points.count;
+    const std::span<const double> of_base = points.parameters.first(count_);
+    std::vector<double> at_rest_dp(out.stress_dp.empty() ? 0 : 6 * count_);
+    double at_rest = 0, stiffness = 0;
+    if (Status status = rest(of_base, at_rest, stiffness, at_rest_dp); !status.ok()) return status;
+    const double c = std::max(points.parameters[count_], 1 / (stiffest * stiffness));
+
+    std::vector<VolumeEnergy> volumes;
+    std::vector<double> C(points.C.begin(), points.C.end());
+    for (std::size_t i = 0; i < n; ++i) {
+      Tensor at;
+      for (std::size_t k = 0; k < 6; ++k) at[k] = points.C[k * n + i];
+      volumes.emplace_back(at);
+      const double scale = isochoric_ ? std::exp(-2 * volumes[i].log_volume() / 3) : 1;
+      for (std::size_t k = 0; k < 6; ++k) C[k * n + i] *= scale;
+    }
+    std::vector<double> stress(6 * n);
+    MaterialResponse base = out;
+    base.stress = stress;
+    base.stress_dp = out.stress_dp.first(out.stress_dp.empty() ? 0 : 6 * count_ * n);
+    if (Status status = base_->evaluate({n, C, of_base, {}, {}}, base); !status.ok()) return status;
+    if (!out.stress_dp.empty()) std::fill(out.stress_dp.begin() + 6 * count_ * n, out.stress_dp.end(), 0.0);
+    if (isochoric_)
+      for (std::size_t i = 0; i < n; ++i) make_isochoric(points, volumes[i], base, n, i);
+    if (!out.stress.empty()) std::copy(stress.begin(), stress.end(), out.stress.begin());
+    for (std::size_t i = 0; i < n; ++i) {
+      const double theta = volumes[i].log_volume();
+      const VolumeLaw law = volume_law(law_, theta);
+      const double a = isochoric_ ? 0 : at_rest;
+      volumes[i].add(law.u / c - a * theta, law.by_theta / c - a, law.by_theta_twice / c, out, n, i);
+      for (std::size_t j = 0; j < count_ && !isochoric_ && !out.stress_dp.empty(); ++j)
+        volumes[i].add_parameter(j, -at_rest_dp[6 * j], out, n, i);
+      volumes[i].add_parameter(count_, -law.by_theta / (c * c), out, n, i);
+    }
+    return {};
+  }
+
+ private:
+  /// The pressure of the base at rest, and the scale of its stiffness there.
+  Status rest(std::span<const double> parameters, double& stress_at_rest, double& stiffness,
+              std::span<double> stress_dp) const {
+    const std::array<double, 6> identity{1, 1, 1, 0, 0, 0};
+    std::array<double, 6> S{};
+    std::array<double, 36> A{};
+    Status status = base_->evaluate({1, identity, parameters, {}, {}}, {{}, S, A, stress_dp, {}});
+    stress_at_rest = S[0];
+    for (const double s : S) stiffness = std::max(stiffness, std::abs(s));
+    for (const double entry : A) stiffness = std::max(stiffness, std::abs(entry));
+    if (!(stiffness > 0)) stiffness = 1;
+    return status;
+  }
+
+  /// From the base at C̄ to W₀(C̄) as a function of C, at one point. With f = J^(−2/3), S = f Dev S̄ and s = f S̄ : C,
+  ///
+  ///   2 ∂S/∂C = f² P : Ā : Pᵀ + ⅔ s (C⁻¹⊙C⁻¹ − ⅓ C⁻¹⊗C⁻¹) − ⅔ (C⁻¹⊗S + S⊗C⁻¹),   P = 1 − ⅓ C⁻¹⊗C
+  static void make_isochoric(const MaterialPoints& points, const VolumeEnergy& volume, const MaterialResponse& out,
+                             std::size_t n, std::size_t i) {
+    const double f = std::exp(-2 * volume.log_volume() / 3);
+    const Tensor& inverse = volume.inverse();
+    Tensor C;
+    for (std::size_t k = 0; k < 6; ++k) C[k] = points.C[k * n + i];
+    const auto deviator = [&](Tensor x) {
+      const double mean = free_faces::contract(x, C) / 3;
+      for (std::size_t k = 0; k < 6; ++k) x[k] -= mean * inverse[k];
+      return x;
+    };
+    const auto project = [&](std::span<double> values, std::size_t first) {
+      Tensor x;
+      for (std::size_t k = 0; k < 6; ++k) x[k] = f * values[(first + k) * n + i];
+      const Tensor dev = deviator(x);
+      for (std::size_t k = 0; k < 6; ++k) values[(first + k) * n + i] = dev[k];
+      return free_faces::contract(x, C);
+    };
+    const double s = project(out.stress, 0);
+    for (std::size_t j = 0; 6 * j * n < out.stress_dp.size(); ++j) project(out.stress_dp, 6 * j);
+    if (out.tangent.empty()) return;
+    // Ā : Pᵀ row by row, then P : of the columns. Both are Dev with C⁻¹ and C.
+    std::array<Tensor, 6> A;
+    for (std::size_t a = 0; a < 6; ++a) {
+      for (std::size_t b = 0; b < 6; ++b) A[a][b] = f * f * out.tangent[(6 * a + b) * n + i];
+      A[a] = deviator(A[a]);
+    }
+    for (std::size_t b = 0; b < 6; ++b) {
+      Tensor column;
+      for (std::size_t a = 0; a < 6; ++a) column[a] = A[a][b];
+      column = deviator(column);
+      for (std::size_t a = 0; a < 6; ++a) {
+        const double S_a = out.stress[a * n + i], S_b = out.stress[b * n + i];
+        out.tangent[(6 * a + b) * n + i] = column[a] +
+                                           2.0 / 3 * s * (volume.product(a, b) - inverse[a] * inverse[b] / 3) -
+                                           2.0 / 3 * (inverse[a] * S_b + S_a * inverse[b]);
+      }
+    }
+  }
+
+  std::unique_ptr<Model> base_;
+  ModelDescription description_;
+  std::size_t count_;
+  std::string law_;
+  bool isochoric_;
+};
+
+MechanismFactory factory() {
+  const std::vector<Parameter> own{{"compliance", "1/kPa", 1e-3, 0, 10, Scale::linear,
+                                    "Compressibility 1/K, K the bulk modulus; 0 = incompressible.", "Flory 1961"}};
+  MechanismFactory mechanism;
+  mechanism.id = "compressibility";
+  mechanism.cause = "The material changes its volume under load, as foams and porous tissues do.";
+  mechanism.stage = Stage::stress;
+  mechanism.parameters = own;
+  mechanism.null = 0;
+  mechanism.side = MechanismFactory::Side::positive;
+  mechanism.plausible_max = 10;
+  // The linearised effect of a foam, whose bulk modulus is a part of its shear modulus, is many times what is measured.
+  mechanism.plausible_effect = 20;
+  mechanism.look_alikes = {"force_scale_error", "force_offset"};
+  mechanism.isolated_by = "lateral stretch or volume measured in the same test, or confined compression";
+  mechanism.reference = "Flory, Trans. Faraday Soc. 57:829 (1961)";
+  // The defaults are those that take most of a foam's misfit. Programs of finite elements have the isochoric form.
+  mechanism.options = {
+      Option::choice("invariants", {"full", "isochoric"}, "full",
+                     "Whether the base sees all of the strain (full) or the strain at constant volume (isochoric)."),
+      Option::choice(
+          "law", {"logarithmic", "quadratic", "simo", "ogden"}, "logarithmic",
+          "Energy of the volume ratio J: K/2 (ln J)^2, K/2 (J-1)^2, K/4 (J^2-1-2 ln J), or Ogden's with beta = 9.")};
+  mechanism.wrap_model = [own](std::unique_ptr<Model> base, const Options& options) -> std::unique_ptr<Model> {
+    const ModelDescription& model = base->describe();
+    if (model.compressible)
+      throw InputError("compressibility: the model '" + model.type + "' changes its volume by itself; take it out");
+    if (model.history_size > 0)
+      throw InputError("compressibility: the model '" + model.type + "' has memory; take one of the two out");
+    return std::make_unique<CompressibleModel>(std::move(base), own, options.text("law"),
+                                               options.text("invariants") == "isochoric");
+  };
+  return mechanism;
+}
+
+}  // namespace
+}  // namespace tunica::compressibility
+
+TUNICA_PLUGIN("compressibility", TUNICA_PLUGIN_VERSION) { registry.add(tunica::compressibility::factory()); }
