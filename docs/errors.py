@@ -32,7 +32,7 @@ SUBJECTS = [
     ("Serving a run", "Answers of `tunica serve`, beside what fails in an evaluation.", ["core/src/serving/"]),
     ("Setting up a calibration", "Found when models, tests and data are put together, before anything is evaluated.",
      ["core/src/assembly/binding", "core/src/assembly/builder", "core/src/assembly/channels",
-      "core/src/assembly/composition", "core/src/assembly/constraint.", "core/src/assembly/noise",
+      "core/src/assembly/composition", "core/src/assembly/constraint.", "core/src/assembly/run_test", "core/src/assembly/noise",
       "core/src/assembly/objective", "core/src/calibration/", "core/src/search/calibration_problem", "core/src/execution/plan",
       "core/src/comparison/uncertainty", "core/src/comparison/stability_map"]),
     ("Running and resuming", "Folders of results, checkpoints, the journal of evaluations.", ["core/src/execution/"]),
@@ -40,7 +40,8 @@ SUBJECTS = [
      ["core/src/population/"]),
     ("Evaluations that fail", "No errors of the program: such a point is counted, and the search goes on as "
      "`on_failure` says. They stand in evaluations.csv, and in the warning about failed evaluations.",
-     ["core/src/assembly/", "core/src/search/", "core/src/uncertainty/", "core/include/tunica/detail/free_strip", "core/include/tunica/detail/symmetric_strip", "core/src/stability/"]),
+     ["core/src/assembly/", "core/src/search/", "core/src/uncertainty/", "core/include/tunica/detail/free_strip", "core/include/tunica/detail/symmetric_strip",
+      "core/include/tunica/detail/free_faces", "core/include/tunica/detail/compressible", "core/src/stability/"]),
     ("Warnings about results", "Printed after a run, first in report.html and in result.json.",
      ["core/src/comparison/"]),
     ("Diagnosis", "", ["core/src/diagnosis/", "core/src/discovery/", "core/src/cohort_diagnosis/"]),
