@@ -98,7 +98,8 @@ void print(const plugins::Catalogue::Entry<ModelFactory>& entry) {
   if (!description.formula.empty()) answer("\n{}\n", hanging("energy: ", description.formula));
   print_parameters(description.parameters);
   print_options(factory.options);
-  if (description.compressible) answer("\nchanges its volume: its stress is whole, and tests solve for their free faces\n");
+  if (description.compressible)
+    answer("\nchanges its volume: its stress is whole, and tests solve for their free faces\n");
   if (description.history_size > 0) answer("\nremembers its history: {} numbers a point\n", description.history_size);
   for (const auto& part : model->parts())
     answer("{}energy part: {}\n", part == model->parts().front() ? "\n" : "", part->describe().name);

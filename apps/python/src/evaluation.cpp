@@ -35,6 +35,11 @@ py::dict evaluate_points(const Model& model, std::span<const double> parameters,
                          const Array& time_step, bool tangent) {
   if (tangent && model.describe().history_size > 0)
     throw InputError("the model has memory, and its tangent depends on the path; take differences along one");
+  const bool keeps_volume = model.keeps_volume(parameters);
+  if (model.describe().compressible && keeps_volume) {
+    const Model& bare = model.incompressible();
+    return evaluate_points(bare, parameters.first(bare.describe().parameters.size()), deformations, time_step, tangent);
+  }
   const std::size_t n = static_cast<std::size_t>(deformations.size()) / 6;
   std::vector<double> energy(n), stress(6 * n), by_deformation(tangent ? 36 * n : 0);
   const std::span<const double> points(deformations.data(), 6 * n), steps = span_of(time_step);
@@ -48,6 +53,7 @@ py::dict evaluate_points(const Model& model, std::span<const double> parameters,
   py::dict found;
   found["status"] = name(status.kind());
   found["reason"] = status.reason();
+  found["keeps_volume"] = keeps_volume;
   found["energy"] = array_of(energy);
   found["stress"] = matrix_of(stress, 6, n);
   if (tangent) found["tangent"] = matrix_of(by_deformation, 36, n);

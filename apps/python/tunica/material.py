@@ -47,7 +47,8 @@ def tensors(components):
 
 class Response:
     """What a material answers, whoever holds it. Units are base units: kPa, s. Axes are those of the material:
-    circumferential, axial, radial. Stress has no pressure in it: that depends on the test."""
+    circumferential, axial, radial. Stress has no pressure in it, which depends on the test; that of a compressible model is
+    whole."""
 
     def _evaluate(self, C, F, stretches, time_step=None, tangent=False):
         points = deformation(C, F, stretches)
@@ -83,11 +84,12 @@ class Response:
         return numpy.einsum("nij,njk,nlk->nil", F, S, F) / numpy.linalg.det(F)[:, None, None]
 
     def axis_stress(self, stretches, free, time_step=None):
-        """Cauchy stresses along the axes of an incompressible material, kPa, (n, 3): the pressure is the one with which
-        the axis `free` (0, 1 or 2) bears none, σ_a = λ_a² S_aa − λ_f² S_ff."""
+        """Cauchy stresses along the axes, kPa, (n, 3). Of an incompressible material the pressure is the one with which
+        the axis `free` (0, 1 or 2) bears none, σ_a = λ_a² S_aa − λ_f² S_ff; of a compressible one σ_a = λ_a² S_aa/J."""
         stretches = numpy.asarray(stretches, dtype=float).reshape(-1, 3)
-        along = stretches**2 * self._evaluate(None, None, stretches, time_step)["stress"][:3].T
-        return along - along[:, [free]]
+        found = self._evaluate(None, None, stretches, time_step)
+        along = stretches**2 * found["stress"][:3].T
+        return along - along[:, [free]] if found["keeps_volume"] else along / stretches.prod(axis=1)[:, None]
 
 
 class Material(Response):

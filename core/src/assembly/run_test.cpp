@@ -46,8 +46,7 @@ void refuse_volume(const RunTest& test, const RunModel& model) {
   if (volume == Volume::free && !description.compressible)
     throw InputError(
         fmt::format("test '{}': its load changes the volume, and the model '{}' ('{}') keeps it. Choose a compressible "
-                    "model, or add "
-                    "\"mechanisms\": [\"compressibility\"] to the model",
+                    "model, or give the model \"mechanisms\": [{{\"type\": \"compressibility\"}}]",
                     test.name, model.name, description.type));
   if (description.compressible && description.history_size > 0)
     throw InputError(

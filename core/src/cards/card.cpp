@@ -50,6 +50,7 @@ bool has_incompressible(Target target) { return target == Target::abaqus || targ
 /// The energy of the volume ratio that the program's cards have: K/2 (J − 1)², K/2 (ln J)², K/4 (J² − 1 − 2 ln J).
 std::string_view volume_law_of(Target target, const Material& material) {
   if (target == Target::febio) return "logarithmic";
+  if (target == Target::ansys && material.type == "gent") return "simo";
   return target == Target::abaqus && has_fibres(material) ? "simo" : "quadratic";
 }
 

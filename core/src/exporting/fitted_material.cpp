@@ -150,6 +150,7 @@ FittedMaterial fitted_material(const ExportRequest& request) {
       if (compressible && name.ends_with("compressibility.compliance")) {
         const double compliance = report::number(entry, "value");
         fitted.material.bulk = compliance > 0 ? 1 / compliance : 0;
+        parameters.emplace_back("compressibility.compliance", entry);
       } else if (const std::string own = own_name(name, fitted.name, names.size() > 1); !own.empty()) {
         fitted.material.values[own] = report::number(entry, "value");
         parameters.emplace_back(own, entry);

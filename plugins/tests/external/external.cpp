@@ -30,6 +30,7 @@ class External final : public Test {
     rows_.time = time_;
     const std::string& derivatives = setup.options.text("derivatives");
     description_.costly = true;
+    description_.volume = TestDescription::Volume::either;  // J is the other program's
     description_.differencing = {setup.options.number("difference_step"), derivatives == "central",
                                  derivatives == "broyden"};
     if (!solver_.settings().card) description_.reads = solver_.settings().reads;

@@ -46,6 +46,7 @@ class Served final : public Test {
     rows_.channels = setup.rows.channels;
     rows_.time = time_;
     description_.costly = true;
+    description_.volume = TestDescription::Volume::either;  // J is the other program's
     const Json inputs = Json::parse(setup.options.text("inputs")), outputs = Json::parse(setup.options.text("outputs"));
     offline_ = setup.options.flag("offline");
     if (offline_)

@@ -74,7 +74,7 @@ struct Volumetric {
   static std::vector<Option> options() { return {}; }
   static std::vector<Observable> observables() {
     return {{"volume_ratio", "1", Role::abscissa, true, "Volume over that before.", Kind::plain},
-            {"pressure", "kPa", Role::channel, true, "Pressure of the fluid; positive in compression.", Kind::plain}};
+            {"pressure", "kPa", Role::channel, false, "Pressure of the fluid; positive in compression.", Kind::plain}};
   }
   explicit Volumetric(const TestSetup&) {}
   template <class T>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -10,6 +11,7 @@
 
 #include "tunica/detail/symmetric_strip.hpp"
 #include "tunica/model.hpp"
+#include "tunica/models/volume_energy.hpp"
 
 namespace tunica {
 
@@ -49,7 +51,7 @@ class ModelSum final : public Model {
     add(energy, out.energy);
     add(stress, out.stress);
     add(tangent, out.tangent);
-    return {};
+    return description_.compressible ? relieve(points, out) : Status();
   }
 
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& out) const override {
@@ -88,6 +90,25 @@ class ModelSum final : public Model {
     description.parameters.insert(description.parameters.end(), own.begin(), own.end());
     description.axis_history_size = 0;  // memory of the base is followed in tensors
     return description;
+  }
+  /// A compressible material bears no stress at rest: ψ − a ln J, a the pressure that ψ has there.
+  Status relieve(const MaterialPoints& points, const MaterialResponse& out) const {
+    const std::array<double, 6> rest{1, 1, 1, 0, 0, 0};
+    const std::size_t n = points.count, own = out.stress_dp.empty() ? 0 : description_.parameters.size() - count_;
+    std::array<double, 6> at_rest{};
+    std::vector<double> at_rest_dp(6 * own);
+    if (Status status =
+            added_->evaluate({1, rest, points.parameters.subspan(count_), {}, {}}, {{}, at_rest, {}, at_rest_dp, {}});
+        !status.ok())
+      return status;
+    for (std::size_t i = 0; i < n; ++i) {
+      VolumeEnergy::Tensor C;
+      for (std::size_t c = 0; c < 6; ++c) C[c] = points.C[c * n + i];
+      const VolumeEnergy volume(C);
+      volume.add(-at_rest[0] * volume.log_volume(), -at_rest[0], 0, out, n, i);
+      for (std::size_t j = 0; j < own; ++j) volume.add_parameter(count_ + j, -at_rest_dp[6 * j], out, n, i);
+    }
+    return {};
   }
   static void add(const std::vector<double>& more, std::span<double> onto) {
     for (std::size_t i = 0; i < more.size(); ++i) onto[i] += more[i];

@@ -17,7 +17,7 @@ namespace tunica {
 /// (Holzapfel, Nonlinear Solid Mechanics, 2000, §6.5).
 class VolumeEnergy {
  public:
-  using Tensor = free_faces::Tensor;
+  using Tensor = free_faces::Tensor;  ///< tt, zz, rr, tz, zr, tr
 
   /// Of this C, six components as MaterialPoints::C.
   explicit VolumeEnergy(const Tensor& C)

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pulling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tunica::plane {
+
+Pulling::Pulling(const Body& body, const Model& model, std::span<const double> parameters, std::array<double, 2> along)
+    : body_(body),
+      membrane_(model, parameters, along),
+      parameters_(parameters.size()),
+      u_(body.dofs(), 0.0),
+      K_(body.pattern()) {
+  membrane_.resize(body.points());
+}
+
+bool Pulling::evaluate(bool with_tangent, bool with_parameters) {
+  body_.strain(u_, F_, membrane_);
+  for (const auto& F : F_)
+    if (!(F[0] * F[3] - F[1] * F[2] > 0)) return false;
+  if (!membrane_.evaluate(with_tangent, with_parameters)) return false;
+  body_.forces(F_, membrane_.stress, f_);
+  return std::all_of(f_.begin(), f_.end(), [](double x) { return std::isfinite(x); });
+}
+
+bool Pulling::factor() {
+  body_.stiffness(F_, membrane_, K_, by_pull_);
+  if (!analysed_) factor_.analyzePattern(K_);
+  analysed_ = true;
+  factor_.factorize(K_);
+  ++factorisations_;
+  return factor_.info() == Eigen::Success;
+}
+
+Eigen::VectorXd Pulling::solve(const std::vector<double>& of_dofs) const {
+  const auto& free = body_.free();
+  Eigen::VectorXd right(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t k = 0; k < free.size(); ++k) right[static_cast<Eigen::Index>(k)] = of_dofs[free[k]];
+  return factor_.solve(right);
+}
+
+/// Along a line in the pull or the stretch: K du = −f − (∂f/∂d) dd, and dd from the gauge where it is the driver.
+bool Pulling::newton(double target, const Gauge* driver) {
+  const std::vector<double>& grips = body_.grips();
+  const auto& free = body_.free();
+  double before = 1e300;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    if (!evaluate(true, false) || !factor()) return false;
+    const Eigen::VectorXd rest = -solve(f_), along = -solve(by_pull_);
+    double dpull = driver == nullptr ? target - pull_ : 0;
+    if (driver != nullptr) {
+      double g = 1, by_rest = 0, by_along = 0;
+      for (const auto& [dof, weight] : driver->reading) {
+        g += weight * u_[dof];
+        by_along += weight * grips[dof];
+      }
+      std::vector<double> one(u_.size(), 0), other(u_.size(), 0);
+      for (std::size_t k = 0; k < free.size(); ++k) {
+        one[free[k]] = rest[static_cast<Eigen::Index>(k)];
+        other[free[k]] = along[static_cast<Eigen::Index>(k)];
+      }
+      for (const auto& [dof, weight] : driver->reading) {
+        by_rest += weight * one[dof];
+        by_along += weight * other[dof];
+      }
+      dpull = (target - g - by_rest) / by_along;
+    }
+    const Eigen::VectorXd du = rest + dpull * along;
+    double largest = std::abs(dpull);
+    if (du.size() > 0) largest = std::max(largest, du.lpNorm<Eigen::Infinity>());
+    if (!std::isfinite(largest)) return false;
+    for (std::size_t k = 0; k < free.size(); ++k) u_[free[k]] += du[static_cast<Eigen::Index>(k)];
+    pull_ += dpull;
+    for (std::size_t dof = 0; dof < u_.size(); ++dof)
+      if (grips[dof] != 0) u_[dof] = pull_ * grips[dof];
+    double size = 0;
+    for (const double x : u_) size = std::max(size, std::abs(x));
+    if (largest <= 1e-8 * (size + 1e-3)) return evaluate(false, false);  // its square is left behind
+    if (iteration > 6 && largest > before) return false;
+    before = largest;
+  }
+  return false;
+}
+
+std::optional<std::string> Pulling::move_to(double target, const Gauge* driver) {
+  driver_ = driver;
+  linear_ = false;
+  const double from = driver == nullptr ? pull_ : value(*driver);
+  double reached = 0, step = 1;
+  for (int trial = 0; trial < 60; ++trial) {
+    const std::vector<double> u = u_;
+    const double pull = pull_;
+    const double next = std::min(1.0, reached + step);
+    if (newton(from + next * (target - from), driver)) {
+      if (next >= 1) return {};
+      reached = next;
+      step *= 2;
+    } else {
+      u_ = u;
+      pull_ = pull;
+      step /= 3;
+    }
+  }
+  return "no equilibrium was found on the way: the material loses its stability, or the mesh is distorted";
+}
+
+bool Pulling::linearise(bool by_parameters, const Gauge* driver) {
+  driver_ = driver;
+  if (!evaluate(true, by_parameters) || !factor()) return false;
+  along_ = -solve(by_pull_);
+  linear_ = true;
+  target_slope_ = 1;
+  if (driver != nullptr) target_slope_ = 1 / change(*driver, along_, 1, by_pull_);
+  return true;
+}
+
+double Pulling::grip_force(const std::vector<double>& f) const {
+  double force = 0;
+  for (std::size_t dof = 0; dof < f.size(); ++dof) force += body_.grips()[dof] * f[dof];
+  // Both grips count half; of a quarter, one half of one grip is there.
+  return body_.mesh().quarter ? 4 * force : force;
+}
+
+double Pulling::value(const Gauge& gauge) const {
+  if (gauge.kind == Gauge::Kind::stress) return f_.empty() ? 0 : grip_force(f_) / gauge.area;
+  double stretch = 1;
+  for (const auto& [dof, weight] : gauge.reading) stretch += weight * u_[dof];
+  return stretch;
+}
+
+double Pulling::change(const Gauge& gauge, const Eigen::VectorXd& du, double dpull,
+                       const std::vector<double>& df) const {
+  const auto& free = body_.free();
+  const std::vector<double>& grips = body_.grips();
+  std::vector<double> change(u_.size(), 0);
+  for (std::size_t dof = 0; dof < grips.size(); ++dof) change[dof] = dpull * grips[dof];
+  for (std::size_t k = 0; k < free.size(); ++k) change[free[k]] = du[static_cast<Eigen::Index>(k)];
+  double sum = 0;
+  if (gauge.kind != Gauge::Kind::stress) {
+    for (const auto& [dof, weight] : gauge.reading) sum += weight * change[dof];
+    return sum;
+  }
+  // Work of the grips: d(gripsᵀ f) = gripsᵀ df + gripsᵀ ∂f/∂u du, and ∂f/∂u is symmetric.
+  sum = grip_force(df);
+  double by_u = 0;
+  for (std::size_t k = 0; k < free.size(); ++k) by_u += by_pull_[free[k]] * du[static_cast<Eigen::Index>(k)];
+  return (sum + (body_.mesh().quarter ? 4 : 1) * by_u) / gauge.area;
+}
+
+double Pulling::by_target(const Gauge& gauge) const {
+  std::vector<double> df = by_pull_;
+  for (double& x : df) x *= target_slope_;
+  return change(gauge, target_slope_ * along_, target_slope_, df);
+}
+
+double Pulling::by_parameter(const Gauge& gauge, std::size_t j) const {
+  const std::size_t n = 3 * body_.points();
+  std::vector<double> df;
+  body_.forces(F_, std::span(membrane_.stress_dp).subspan(j * n, n), df);
+  Eigen::VectorXd du = -solve(df);
+  double dpull = 0;
+  if (driver_ != nullptr) {
+    dpull = -change(*driver_, du, 0, df) * target_slope_;
+    du += dpull * along_;
+  }
+  for (std::size_t dof = 0; dof < df.size(); ++dof) df[dof] += dpull * by_pull_[dof];
+  return change(gauge, du, dpull, df);
+}
+
+}  // namespace tunica::plane
