@@ -23,6 +23,7 @@ namespace {
 
 using Tensor = VolumeEnergy::Tensor;
 constexpr double stiffest = 1e8;
+constexpr double least = 1e-12;  ///< 1/kPa
 
 /// u with u_θ and u_θθ at θ = ln J; u_θθ = 1 at rest, so that κ is the bulk modulus there.
 struct VolumeLaw {
@@ -61,53 +62,69 @@ class CompressibleModel final : public Model {
   Status evaluate(const MaterialPoints& points, const MaterialResponse& out) const override {
     const std::size_t n = points.count;
     const std::span<const double> of_base = points.parameters.first(count_);
-    std::vector<double> at_rest_dp(out.stress_dp.empty() ? 0 : 6 * count_);
-    double at_rest = 0, stiffness = 0;
-    if (Status status = rest(of_base, at_rest, stiffness, at_rest_dp); !status.ok()) return status;
-    const double c = std::max(points.parameters[count_], 1 / (stiffest * stiffness));
+    Scratch& s = scratch();
+    s.at_rest_dp.resize(out.stress_dp.empty() ? 0 : 6 * count_);
+    double at_rest = 0, c = points.parameters[count_];
+    if (Status status = rest(of_base, at_rest, c, s.at_rest_dp); !status.ok()) return status;
 
-    std::vector<VolumeEnergy> volumes;
-    std::vector<double> C(points.C.begin(), points.C.end());
+    s.volumes.clear();
+    s.C.assign(points.C.begin(), points.C.end());
     for (std::size_t i = 0; i < n; ++i) {
       Tensor at;
       for (std::size_t k = 0; k < 6; ++k) at[k] = points.C[k * n + i];
-      volumes.emplace_back(at);
-      const double scale = isochoric_ ? std::exp(-2 * volumes[i].log_volume() / 3) : 1;
-      for (std::size_t k = 0; k < 6; ++k) C[k * n + i] *= scale;
+      s.volumes.emplace_back(at);
+      const double scale = isochoric_ ? std::exp(-2 * s.volumes[i].log_volume() / 3) : 1;
+      for (std::size_t k = 0; k < 6; ++k) s.C[k * n + i] *= scale;
     }
-    std::vector<double> stress(6 * n);
+    s.stress.resize(6 * n);
     MaterialResponse base = out;
-    base.stress = stress;
+    base.stress = s.stress;
     base.stress_dp = out.stress_dp.first(out.stress_dp.empty() ? 0 : 6 * count_ * n);
-    if (Status status = base_->evaluate({n, C, of_base, {}, {}}, base); !status.ok()) return status;
+    if (Status status = base_->evaluate({n, s.C, of_base, {}, {}}, base); !status.ok()) return status;
     if (!out.stress_dp.empty()) std::fill(out.stress_dp.begin() + 6 * count_ * n, out.stress_dp.end(), 0.0);
     if (isochoric_)
-      for (std::size_t i = 0; i < n; ++i) make_isochoric(points, volumes[i], base, n, i);
-    if (!out.stress.empty()) std::copy(stress.begin(), stress.end(), out.stress.begin());
+      for (std::size_t i = 0; i < n; ++i) make_isochoric(points, s.volumes[i], base, n, i);
+    if (!out.stress.empty()) std::copy(s.stress.begin(), s.stress.end(), out.stress.begin());
     for (std::size_t i = 0; i < n; ++i) {
-      const double theta = volumes[i].log_volume();
+      const double theta = s.volumes[i].log_volume();
       const VolumeLaw law = volume_law(law_, theta);
       const double a = isochoric_ ? 0 : at_rest;
-      volumes[i].add(law.u / c - a * theta, law.by_theta / c - a, law.by_theta_twice / c, out, n, i);
+      s.volumes[i].add(law.u / c - a * theta, law.by_theta / c - a, law.by_theta_twice / c, out, n, i);
       for (std::size_t j = 0; j < count_ && !isochoric_ && !out.stress_dp.empty(); ++j)
-        volumes[i].add_parameter(j, -at_rest_dp[6 * j], out, n, i);
-      volumes[i].add_parameter(count_, -law.by_theta / (c * c), out, n, i);
+        s.volumes[i].add_parameter(j, -s.at_rest_dp[6 * j], out, n, i);
+      s.volumes[i].add_parameter(count_, -law.by_theta / (c * c), out, n, i);
     }
     return {};
   }
 
  private:
-  /// The pressure of the base at rest, and the scale of its stiffness there.
-  Status rest(std::span<const double> parameters, double& stress_at_rest, double& stiffness,
+  /// Of one thread: predictions call with one point, thousands of times.
+  struct Scratch {
+    std::vector<VolumeEnergy> volumes;
+    std::vector<double> C, stress, at_rest_dp;
+  };
+  static Scratch& scratch() {
+    thread_local Scratch instance;
+    return instance;
+  }
+
+  /// The pressure of the base at rest where invariants are full, and the least compressibility in place of none.
+  Status rest(std::span<const double> parameters, double& stress_at_rest, double& compliance,
               std::span<double> stress_dp) const {
+    const bool none = compliance == 0;
+    compliance = std::max(compliance, least);
+    if (isochoric_ && !none) return {};
     const std::array<double, 6> identity{1, 1, 1, 0, 0, 0};
     std::array<double, 6> S{};
     std::array<double, 36> A{};
-    Status status = base_->evaluate({1, identity, parameters, {}, {}}, {{}, S, A, stress_dp, {}});
+    const Status status =
+        base_->evaluate({1, identity, parameters, {}, {}}, {{}, S, {A.data(), none ? A.size() : 0}, stress_dp, {}});
     stress_at_rest = S[0];
-    for (const double s : S) stiffness = std::max(stiffness, std::abs(s));
+    if (!none) return status;
+    double stiffness = 0;
+    for (const double entry : S) stiffness = std::max(stiffness, std::abs(entry));
     for (const double entry : A) stiffness = std::max(stiffness, std::abs(entry));
-    if (!(stiffness > 0)) stiffness = 1;
+    compliance = 1 / (stiffest * (stiffness > 0 ? stiffness : 1));
     return status;
   }
 
@@ -163,7 +180,9 @@ class CompressibleModel final : public Model {
 
 MechanismFactory factory() {
   const std::vector<Parameter> own{{"compliance", "1/kPa", 1e-3, 0, 10, Scale::linear,
-                                    "Compressibility 1/K, K the bulk modulus; 0 = incompressible.", "Flory 1961"}};
+                                    "Compressibility 1/K, K the modulus of \"law\" (the bulk modulus where invariants "
+                                    "are isochoric); 0 = incompressible.",
+                                    "Flory 1961"}};
   MechanismFactory mechanism;
   mechanism.id = "compressibility";
   mechanism.cause = "The material changes its volume under load, as foams and porous tissues do.";

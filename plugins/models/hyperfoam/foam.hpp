@@ -64,7 +64,8 @@ class Foam final : public Model {
   static PrincipalStretches<laws::Ogden<terms>> of_stretches() {
     ModelDescription description;
     description.type = "ogden";
-    for (std::size_t k = 0; k < 2 * terms; ++k) description.parameters.push_back({std::to_string(k), "1"});
+    for (std::size_t k = 0; k < 2 * terms; ++k)
+      description.parameters.push_back({std::to_string(k), "1", 1, -1e6, 1e6, Scale::linear, "", ""});
     return PrincipalStretches<laws::Ogden<terms>>(std::move(description));
   }
 

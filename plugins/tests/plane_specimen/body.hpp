@@ -24,6 +24,7 @@ enum class Ends { clamped, sliding };
 /// the stiffness. Displacement of node a: u_x at 2a, u_y at 2a + 1, mm. Immutable, shared by all threads.
 class Body {
  public:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
   Body(const Shape& shape, const Mesh& mesh, Ends ends);
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
@@ -33,6 +34,8 @@ class Body {
   /// u = 0 where held, and pull times this at the grips.
   [[nodiscard]] const std::vector<double>& grips() const { return grips_; }
   [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }  ///< dofs, by unknown
+  /// The unknown that a dof is; none where it is prescribed.
+  [[nodiscard]] std::size_t unknown(std::size_t dof) const { return unknown_[dof]; }
   /// Of the point (x, y) of the unloaded specimen: a component of its displacement. Empty where it is outside.
   [[nodiscard]] Reading displacement(Vector point, std::size_t component) const;
 
@@ -48,7 +51,6 @@ class Body {
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
 
  private:
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
   struct Gauss {
     std::array<double, 9> x, y;  ///< ∂N/∂X, ∂N/∂Y
     double weight;               ///< with det J

@@ -8,7 +8,7 @@ namespace tunica::plane {
 namespace {
 
 constexpr std::array<std::size_t, 3> in_plane{0, 1, 3};  ///< tt, zz, tz among tt, zz, rr, tz, zr, tr
-constexpr std::array<double, 3> weight{1, 1, 2};         ///< an off-diagonal entry counts twice
+constexpr std::array<double, 3> twice{1, 1, 2};         ///< an off-diagonal entry counts twice
 constexpr std::size_t rr = 2;
 
 }  // namespace
@@ -87,7 +87,7 @@ bool Membrane::evaluate(bool with_tangent, bool with_parameters) {
     const double S_rr = S6_[rr * n + i];
     const auto turned = [&](const std::vector<double>& of, std::size_t first, std::size_t a) {
       double sum = 0;
-      for (std::size_t c = 0; c < 3; ++c) sum += weight[c] * dyad_[a][c] * of[(first + in_plane[c]) * n + i];
+      for (std::size_t c = 0; c < 3; ++c) sum += twice[c] * dyad_[a][c] * of[(first + in_plane[c]) * n + i];
       return sum;
     };
     for (std::size_t a = 0; a < 3; ++a) {
@@ -107,7 +107,7 @@ bool Membrane::evaluate(bool with_tangent, bool with_parameters) {
       for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t b = a; b < 3; ++b) {
           double A = 0;
-          for (std::size_t c = 0; c < 3; ++c) A += weight[c] * dyad_[a][c] * turned(A6_, 6 * in_plane[c], b);
+          for (std::size_t c = 0; c < 3; ++c) A += twice[c] * dyad_[a][c] * turned(A6_, 6 * in_plane[c], b);
           if (compressible_)
             A -= A_rr[a] * A_rr[b] / A_rrrr;
           else

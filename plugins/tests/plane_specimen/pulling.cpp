@@ -9,7 +9,6 @@ namespace tunica::plane {
 Pulling::Pulling(const Body& body, const Model& model, std::span<const double> parameters, std::array<double, 2> along)
     : body_(body),
       membrane_(model, parameters, along),
-      parameters_(parameters.size()),
       u_(body.dofs(), 0.0),
       K_(body.pattern()) {
   membrane_.resize(body.points());
@@ -29,8 +28,8 @@ bool Pulling::factor() {
   if (!analysed_) factor_.analyzePattern(K_);
   analysed_ = true;
   factor_.factorize(K_);
-  ++factorisations_;
-  return factor_.info() == Eigen::Success;
+  factored_ = factor_.info() == Eigen::Success;
+  return factored_;
 }
 
 Eigen::VectorXd Pulling::solve(const std::vector<double>& of_dofs) const {
@@ -40,52 +39,49 @@ Eigen::VectorXd Pulling::solve(const std::vector<double>& of_dofs) const {
   return factor_.solve(right);
 }
 
-/// Along a line in the pull or the stretch: K du = −f − (∂f/∂d) dd, and dd from the gauge where it is the driver.
+/// K du = −f − (∂f/∂d) dd, and dd from the gauge where it is the driver. The factor of the state before makes the first
+/// step; where steps are small, one factor serves several, as long as each is a tenth of the one before.
 bool Pulling::newton(double target, const Gauge* driver) {
   const std::vector<double>& grips = body_.grips();
   const auto& free = body_.free();
+  bool reuse = factored_;
   double before = 1e300;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    if (!evaluate(true, false) || !factor()) return false;
-    const Eigen::VectorXd rest = -solve(f_), along = -solve(by_pull_);
+    factored_ = factored_ && reuse;
+    if (!evaluate(!reuse, false) || (!reuse && !factor())) return false;
+    if (!reuse) along_ = -solve(by_pull_);
+    const Eigen::VectorXd rest = -solve(f_);
     double dpull = driver == nullptr ? target - pull_ : 0;
-    if (driver != nullptr) {
-      double g = 1, by_rest = 0, by_along = 0;
-      for (const auto& [dof, weight] : driver->reading) {
-        g += weight * u_[dof];
-        by_along += weight * grips[dof];
-      }
-      std::vector<double> one(u_.size(), 0), other(u_.size(), 0);
-      for (std::size_t k = 0; k < free.size(); ++k) {
-        one[free[k]] = rest[static_cast<Eigen::Index>(k)];
-        other[free[k]] = along[static_cast<Eigen::Index>(k)];
-      }
-      for (const auto& [dof, weight] : driver->reading) {
-        by_rest += weight * one[dof];
-        by_along += weight * other[dof];
-      }
-      dpull = (target - g - by_rest) / by_along;
-    }
-    const Eigen::VectorXd du = rest + dpull * along;
-    double largest = std::abs(dpull);
+    if (driver != nullptr) dpull = (target - value(*driver) - reading(*driver, rest, 0)) / reading(*driver, along_, 1);
+    const Eigen::VectorXd du = rest + dpull * along_;
+    double largest = std::abs(dpull), size = 1e-3;
     if (du.size() > 0) largest = std::max(largest, du.lpNorm<Eigen::Infinity>());
     if (!std::isfinite(largest)) return false;
     for (std::size_t k = 0; k < free.size(); ++k) u_[free[k]] += du[static_cast<Eigen::Index>(k)];
     pull_ += dpull;
     for (std::size_t dof = 0; dof < u_.size(); ++dof)
       if (grips[dof] != 0) u_[dof] = pull_ * grips[dof];
-    double size = 0;
     for (const double x : u_) size = std::max(size, std::abs(x));
-    if (largest <= 1e-8 * (size + 1e-3)) return evaluate(false, false);  // its square is left behind
+    // A step with its own factor leaves its square behind, one with an older factor a share of itself.
+    if (largest <= (reuse ? 1e-12 : 1e-8) * size) return evaluate(false, false);
     if (iteration > 6 && largest > before) return false;
+    reuse = reuse ? iteration > 0 && largest < 0.1 * before : largest < 0.02 * size;
     before = largest;
   }
   return false;
 }
 
+double Pulling::reading(const Gauge& gauge, const Eigen::VectorXd& du, double dpull) const {
+  double sum = 0;
+  for (const auto& [dof, weight] : gauge.reading) {
+    const std::size_t unknown = body_.unknown(dof);
+    sum += weight * (unknown == Body::none ? dpull * body_.grips()[dof] : du[static_cast<Eigen::Index>(unknown)]);
+  }
+  return sum;
+}
+
 std::optional<std::string> Pulling::move_to(double target, const Gauge* driver) {
   driver_ = driver;
-  linear_ = false;
   const double from = driver == nullptr ? pull_ : value(*driver);
   double reached = 0, step = 1;
   for (int trial = 0; trial < 60; ++trial) {
@@ -100,6 +96,7 @@ std::optional<std::string> Pulling::move_to(double target, const Gauge* driver) 
       u_ = u;
       pull_ = pull;
       step /= 3;
+      factored_ = false;
     }
   }
   return "no equilibrium was found on the way: the material loses its stability, or the mesh is distorted";
@@ -109,7 +106,6 @@ bool Pulling::linearise(bool by_parameters, const Gauge* driver) {
   driver_ = driver;
   if (!evaluate(true, by_parameters) || !factor()) return false;
   along_ = -solve(by_pull_);
-  linear_ = true;
   target_slope_ = 1;
   if (driver != nullptr) target_slope_ = 1 / change(*driver, along_, 1, by_pull_);
   return true;
@@ -131,18 +127,10 @@ double Pulling::value(const Gauge& gauge) const {
 
 double Pulling::change(const Gauge& gauge, const Eigen::VectorXd& du, double dpull,
                        const std::vector<double>& df) const {
-  const auto& free = body_.free();
-  const std::vector<double>& grips = body_.grips();
-  std::vector<double> change(u_.size(), 0);
-  for (std::size_t dof = 0; dof < grips.size(); ++dof) change[dof] = dpull * grips[dof];
-  for (std::size_t k = 0; k < free.size(); ++k) change[free[k]] = du[static_cast<Eigen::Index>(k)];
-  double sum = 0;
-  if (gauge.kind != Gauge::Kind::stress) {
-    for (const auto& [dof, weight] : gauge.reading) sum += weight * change[dof];
-    return sum;
-  }
+  if (gauge.kind != Gauge::Kind::stress) return reading(gauge, du, dpull);
   // Work of the grips: d(gripsᵀ f) = gripsᵀ df + gripsᵀ ∂f/∂u du, and ∂f/∂u is symmetric.
-  sum = grip_force(df);
+  const auto& free = body_.free();
+  const double sum = grip_force(df);
   double by_u = 0;
   for (std::size_t k = 0; k < free.size(); ++k) by_u += by_pull_[free[k]] * du[static_cast<Eigen::Index>(k)];
   return (sum + (body_.mesh().quarter ? 4 : 1) * by_u) / gauge.area;

@@ -45,7 +45,6 @@ class Pulling {
   [[nodiscard]] const std::vector<double>& displacements() const { return u_; }
   [[nodiscard]] const Membrane& membrane() const { return membrane_; }
   [[nodiscard]] const std::vector<std::array<double, 4>>& gradients() const { return F_; }
-  [[nodiscard]] std::size_t factorisations() const { return factorisations_; }
 
  private:
   static constexpr int most_iterations = 25;
@@ -53,6 +52,8 @@ class Pulling {
   bool factor();
   bool newton(double target, const Gauge* driver);
   [[nodiscard]] Eigen::VectorXd solve(const std::vector<double>& of_dofs) const;
+  /// Of a stretch: what these changes of the free displacements and of the pull do to it.
+  [[nodiscard]] double reading(const Gauge& gauge, const Eigen::VectorXd& du, double dpull) const;
   /// The change of a gauge with these changes of the free displacements, the pull and the forces at fixed u.
   [[nodiscard]] double change(const Gauge& gauge, const Eigen::VectorXd& du, double dpull,
                               const std::vector<double>& df) const;
@@ -60,16 +61,14 @@ class Pulling {
 
   const Body& body_;
   Membrane membrane_;
-  std::size_t parameters_;
   std::vector<double> u_, f_, by_pull_;
   double pull_ = 0;
   std::vector<std::array<double, 4>> F_;
   Eigen::SparseMatrix<double> K_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor_;
-  bool analysed_ = false, linear_ = false;
+  bool analysed_ = false, factored_ = false;
   Eigen::VectorXd along_;    ///< du/dd at the solution, by unknown
   double target_slope_ = 1;  ///< dd/dtarget
-  std::size_t factorisations_ = 0;
   const Gauge* driver_ = nullptr;
 };
 
