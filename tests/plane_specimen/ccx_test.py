@@ -23,13 +23,13 @@ FOAM_VALUES = {"mu_1": 25, "alpha_1": 6, "nu": 0.18}
 # A mark of CalculiX is a node: strips have them at these places.
 SPECIMENS = {
     "strip": (ccx_plate.Quarter(12, 6, ccx_plate.strip(20, 10)), [(2.5, 0), (0, 2.5)],
-              {"length": "20 mm", "width": "10 mm", "gauge_length": "5 mm", "gauge_width_marks": "5 mm"}),
+              {"length": "20 mm", "width": "10 mm", "marks_along": "5 mm", "marks_across": "5 mm"}),
     "plate_with_hole": (ccx_plate.Quarter(12, 8, ccx_plate.plate_with_hole(20, 10, 2)), [],
                         {"shape": "plate_with_hole", "length": "20 mm", "width": "10 mm", "hole_radius": "2 mm",
-                         "gauge_length": "8 mm", "gauge_width_marks": "6 mm"}),
+                         "marks_along": "8 mm", "marks_across": "6 mm"}),
     "dog_bone": (ccx_plate.Quarter(18, 4, ccx_plate.dog_bone(40, 12, 16, 4, 8)), [],
                  {"shape": "dog_bone", "length": "40 mm", "width": "12 mm", "gauge_section": "16 mm",
-                  "gauge_width": "4 mm", "fillet": "8 mm", "gauge_length": "5 mm", "gauge_width_marks": "3 mm"}),
+                  "gauge_width": "4 mm", "fillet": "8 mm", "marks_along": "5 mm", "marks_across": "3 mm"}),
 }
 
 

@@ -19,7 +19,7 @@ struct Specimen {
   std::string shape = "strip";
   double length = 20, width = 10;
   std::string ends = "clamped", elements = "null", abscissa = "stretch";
-  double angle = 0, gauge_length = 5, gauge_width_marks = 4;
+  double angle = 0, marks_along = 5, marks_across = 4;
   double gauge_section = 0, gauge_width = 0, fillet = 0, hole_radius = 0;
   std::string direction = "axial", measure = "first_piola_kirchhoff";
   std::vector<std::string> channels = {"stress", "mark_stretch", "mark_transverse_stretch"};
@@ -27,11 +27,11 @@ struct Specimen {
 const Specimen bone{.shape = "dog_bone",
                     .length = 40,
                     .width = 12,
-                    .gauge_width_marks = 3,
+                    .marks_across = 3,
                     .gauge_section = 16,
                     .gauge_width = 4,
                     .fillet = 8};
-const Specimen plate{.shape = "plate_with_hole", .gauge_length = 8, .gauge_width_marks = 6, .hole_radius = 2};
+const Specimen plate{.shape = "plate_with_hole", .marks_along = 8, .marks_across = 6, .hole_radius = 2};
 
 std::unique_ptr<Test> make(const Specimen& of, const std::vector<double>& rows) {
   TestSetup setup;
@@ -40,7 +40,7 @@ std::unique_ptr<Test> make(const Specimen& of, const std::vector<double>& rows) 
     setup.options.set(name, value);
   for (const auto& [name, value] :
        {std::pair("length", of.length), std::pair("width", of.width), std::pair("angle", of.angle),
-        std::pair("gauge_length", of.gauge_length), std::pair("gauge_width_marks", of.gauge_width_marks),
+        std::pair("marks_along", of.marks_along), std::pair("marks_across", of.marks_across),
         std::pair("gauge_section", of.gauge_section), std::pair("gauge_width", of.gauge_width),
         std::pair("fillet", of.fillet), std::pair("hole_radius", of.hole_radius)})
     setup.options.set(name, value);
@@ -188,11 +188,11 @@ TEST(PlaneSpecimen, RefusesWhatIsNoSpecimen) {
   refuses({.shape = "dog_bone", .gauge_section = 5, .gauge_width = 4, .fillet = 1}, "no dog-bone");
   refuses({.elements = "[0, 4]"}, "two numbers from 2 on");
   refuses({.elements = "[4000, 4000]"}, "at most");
-  refuses({.gauge_length = 0}, "distance of the marks");
-  refuses({.gauge_length = 30}, "not on the specimen");
+  refuses({.marks_along = 0}, "distance of the marks");
+  refuses({.marks_along = 30}, "not on the specimen");
   refuses({.measure = "cauchy"}, "first_piola_kirchhoff");
   Specimen inside = plate;
-  inside.gauge_length = 3;
+  inside.marks_along = 3;
   refuses(inside, "not on the specimen");
 }
 

@@ -8,7 +8,7 @@ namespace tunica::plane {
 namespace {
 
 constexpr std::array<std::size_t, 3> in_plane{0, 1, 3};  ///< tt, zz, tz among tt, zz, rr, tz, zr, tr
-constexpr std::array<double, 3> twice{1, 1, 2};         ///< an off-diagonal entry counts twice
+constexpr std::array<double, 3> twice{1, 1, 2};          ///< an off-diagonal entry counts twice
 constexpr std::size_t rr = 2;
 
 }  // namespace

@@ -49,10 +49,11 @@ Shape shape_of(const Options& given) {
     shape.fillet = positive(given, "fillet");
     const double rise = (shape.width - shape.gauge_width) / 2;
     if (!(rise > 0) || shape.fillet < rise || !(shape.gauge_section < shape.length))
-      throw InputError(fmt::format(
-          "plane_specimen: no dog-bone has {:g} mm at the grips, {:g} mm over {:g} of {:g} mm and arcs of {:g} mm; the "
-          "gauge section must be narrower and shorter than the specimen, and an arc at least {:g} mm",
-          shape.width, shape.gauge_width, shape.gauge_section, shape.length, shape.fillet, rise));
+      throw InputError(
+          fmt::format("plane_specimen: no dog-bone has {:g} mm at the grips, {:g} mm over {:g} of {:g} mm and arcs of "
+                      "{:g} mm; give a "
+                      "gauge section that is narrower and shorter than the specimen, and arcs of at least {:g} mm",
+                      shape.width, shape.gauge_width, shape.gauge_section, shape.length, shape.fillet, rise));
   }
   if (plate) {
     shape.hole = positive(given, "hole_radius");
@@ -166,8 +167,8 @@ class PlaneSpecimen final : public Test {
     rows_.abscissae.front().values = x_;
     rows_.count = x_.size();
     rows_.channels = setup.rows.channels;
-    gauge_length_ = setup.options.number("gauge_length");
-    gauge_width_ = setup.options.number("gauge_width_marks");
+    marks_along_ = setup.options.number("marks_along");
+    marks_across_ = setup.options.number("marks_across");
     for (const std::string& name : rows_.channels)
       kinds_.push_back(name == "stress"         ? Gauge::Kind::stress
                        : name == "mark_stretch" ? Gauge::Kind::stretch
@@ -179,8 +180,8 @@ class PlaneSpecimen final : public Test {
                       "at the grips; give "
                       "\"first_piola_kirchhoff\"",
                       setup.stress_measure));
-    check_marks(by_gauge_ || has(Gauge::Kind::stretch), "gauge_length", gauge_length_, {gauge_length_ / 2, 0});
-    check_marks(has(Gauge::Kind::transverse_stretch), "gauge_width_marks", gauge_width_, {0, gauge_width_ / 2});
+    check_marks(by_gauge_ || has(Gauge::Kind::stretch), "marks_along", marks_along_, {marks_along_ / 2, 0});
+    check_marks(has(Gauge::Kind::transverse_stretch), "marks_across", marks_across_, {0, marks_across_ / 2});
     const Body body(shape_, mesh_of(shape_, elements_[0], elements_[1], true), ends_);
     for (const Gauge::Kind kind : kinds_) gauges_.push_back(gauge_of(body, kind));
   }
@@ -203,7 +204,7 @@ class PlaneSpecimen final : public Test {
     gauge.area = shape_.width;
     if (kind == Gauge::Kind::stress) return gauge;
     const std::size_t axis = kind == Gauge::Kind::stretch ? 0 : 1;
-    const double size = axis == 0 ? gauge_length_ : gauge_width_;
+    const double size = axis == 0 ? marks_along_ : marks_across_;
     if (!(size > 0)) return gauge;
     for (const double sign : {1.0, -1.0}) {
       Vector mark{0, 0};
@@ -246,7 +247,7 @@ class PlaneSpecimen final : public Test {
   Status pull(const TestInput& input, const TestOutput& output, const std::array<std::size_t, 2>& elements) const {
     const bool wants_parameters = !output.jacobian.empty();
     if (wants_parameters && !input.model.describe().parameter_derivatives)
-      return Status::failed("plane_specimen: the model has no parameter derivatives");
+      return Status::failed("plane_specimen: the model has no parameter derivatives; difference the whole prediction");
     const auto on = body(elements, is_symmetric(input));
     Pulling pulling(*on, input.model, input.model_parameters, along_);
     const Gauge driver = gauge_of(*on, Gauge::Kind::stretch);
@@ -258,7 +259,9 @@ class PlaneSpecimen final : public Test {
       if (auto problem = go_to(pulling, x[i], driver)) return Status::failed(row_name(i, x[i]) + *problem);
       for (std::size_t k = 0; k < gauges.size() && !output.values.empty(); ++k) {
         const double value = pulling.value(gauges[k]);
-        if (!std::isfinite(value)) return Status::failed(row_name(i, x[i]) + "the stress overflows");
+        if (!std::isfinite(value))
+          return Status::failed(row_name(i, x[i]) +
+                                "the stress overflows; narrow the bounds of the model's parameters");
         output.values[k * n + i] = value;
       }
       if (!output.diagnostics.empty()) {
@@ -267,7 +270,8 @@ class PlaneSpecimen final : public Test {
       }
       if (!wants_parameters && output.abscissa_derivative.empty()) continue;
       if (!pulling.linearise(wants_parameters, by_gauge_ ? &driver : nullptr))
-        return Status::failed(row_name(i, x[i]) + "the stiffness is singular");
+        return Status::failed(row_name(i, x[i]) +
+                              "the stiffness is singular; narrow the bounds of the model's parameters");
       for (std::size_t k = 0; k < gauges.size(); ++k) {
         if (!output.abscissa_derivative.empty())
           output.abscissa_derivative[k * n + i] = pulling.by_target(gauges[k]) * (by_gauge_ ? 1 : shape_.length);
@@ -328,7 +332,7 @@ class PlaneSpecimen final : public Test {
   Ends ends_ = Ends::clamped;
   std::array<double, 2> along_{};
   bool angled_ = false, by_gauge_ = false;
-  double gauge_length_ = 0, gauge_width_ = 0;
+  double marks_along_ = 0, marks_across_ = 0;
   std::vector<double> x_;
   std::vector<Gauge::Kind> kinds_;
   std::vector<Gauge> gauges_;
@@ -350,8 +354,8 @@ TestFactory factory() {
            length("gauge_width", "Width of the narrow part of a dog-bone."),
            length("fillet", "Radius of the arcs between the narrow part and the width at the grips."),
            length("hole_radius", "Radius of the hole in the centre of a plate."),
-           length("gauge_length", "Unloaded distance of two marks on the axis, the same from the centre."),
-           length("gauge_width_marks", "Unloaded distance of two marks across the axis, the same from the centre."),
+           length("marks_along", "Unloaded distance of two marks on the axis, the same from the centre."),
+           length("marks_across", "Unloaded distance of two marks across the axis, the same from the centre."),
            Option::choice("direction", {"circumferential", "axial"}, "axial",
                           "Material axis that the specimen is pulled along."),
            Option::quantity("angle", "deg", -360,

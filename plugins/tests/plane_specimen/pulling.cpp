@@ -7,10 +7,7 @@
 namespace tunica::plane {
 
 Pulling::Pulling(const Body& body, const Model& model, std::span<const double> parameters, std::array<double, 2> along)
-    : body_(body),
-      membrane_(model, parameters, along),
-      u_(body.dofs(), 0.0),
-      K_(body.pattern()) {
+    : body_(body), membrane_(model, parameters, along), u_(body.dofs(), 0.0), K_(body.pattern()) {
   membrane_.resize(body.points());
 }
 
@@ -99,7 +96,9 @@ std::optional<std::string> Pulling::move_to(double target, const Gauge* driver) 
       factored_ = false;
     }
   }
-  return "no equilibrium was found on the way: the material loses its stability, or the mesh is distorted";
+  return "no equilibrium was found on the way, since the material loses its stability or the mesh is distorted; narrow "
+         "the "
+         "bounds of the model's parameters";
 }
 
 bool Pulling::linearise(bool by_parameters, const Gauge* driver) {
