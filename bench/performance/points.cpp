@@ -121,7 +121,7 @@ std::vector<Row> point_rows() {
   std::vector<Row> rows;
   for (const char* type :
        {"neo_hooke", "mooney_rivlin", "yeoh", "gent", "ogden", "arruda_boyce", "hgo", "gho", "holzapfel_2015",
-        "four_fibre", "holzapfel_ogden", "fung", "composed", "gho_parts", "gho_joint"})
+        "four_fibre", "holzapfel_ogden", "fung", "hyperfoam", "composed", "gho_parts", "gho_joint"})
     for (const auto& [call, word] : calls) {
       const std::string what = call == Call::energy     ? "energy"
                                : call == Call::gradient ? "gradient"

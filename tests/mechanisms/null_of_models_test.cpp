@@ -46,7 +46,7 @@ TEST_P(OnAModel, DerivativesByTheBasesParametersAtTheNullAreTheBases) {
   EXPECT_EQ(verdict.counter_example, "");
   EXPECT_EQ(verdict.worst, 0);
   if (!verdict.skipped.empty()) {
-    EXPECT_GT(on.with->describe().history_size, 0u);
+    EXPECT_TRUE(on.with->describe().history_size > 0 || on.with->describe().compressible);
   }
 }
 

@@ -164,6 +164,34 @@ TEST(PlaneSpecimen, DerivativesAreThoseOfDifferences) {
   }
 }
 
+/// Whether derivatives are wanted changes no bit of the values.
+TEST(PlaneSpecimen, ValuesDoNotDependOnWhatElseIsWanted) {
+  for (const auto& [model, p] : {std::pair(make_model("gho"), wall), std::pair(hyperfoam(), foam)})
+    for (const char* abscissa : {"stretch", "gauge_stretch"}) {
+      const auto test = make({.elements = "[8, 4]", .abscissa = abscissa}, pulled);
+      std::vector<double> values(9), jacobian(9 * p.size()), along(9);
+      ASSERT_TRUE(test->predict({*model, p, {}}, {values, jacobian, along, {}}).ok());
+      EXPECT_EQ(values, values_of(*test, *model, p)) << abscissa;
+    }
+}
+
+/// With sliding ends the derivative by a compressibility of 0 is that of the strip.
+TEST(PlaneSpecimen, DerivativesWhereACompressibilityVanishesAreThoseOfTheStrip) {
+  Options options;
+  options.set("invariants", std::string("full"));
+  options.set("law", std::string("logarithmic"));
+  const auto model = plugins::wrap(catalogue().mechanisms().at("compressibility"), make_model("neo_hooke"), options);
+  const auto test = make({.ends = "sliding", .elements = "[4, 4]", .channels = {"stress"}}, pulled);
+  const std::vector<double> p{30, 0};
+  std::vector<double> values(3), jacobian(6);
+  ASSERT_TRUE(test->predict({*model, p, {}}, {values, jacobian, {}, {}}).ok());
+  const Prediction strip =
+      predict(*make_strip(pulled, {"axial", {"stress"}, "first_piola_kirchhoff"}), *model, p, 0, true);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(jacobian[i], strip.jacobian[i], 1e-5 * std::abs(strip.jacobian[i]));
+  EXPECT_LT(jacobian[5], -100);
+  EXPECT_EQ(values, values_of(*test, *make_model("neo_hooke"), {30}));
+}
+
 /// What a gauge is driven to is what its marks show, and the same state as with the grips there.
 TEST(PlaneSpecimen, AGaugeMayBeDriven) {
   const auto model = make_model("neo_hooke");
@@ -185,7 +213,10 @@ TEST(PlaneSpecimen, RefusesWhatIsNoSpecimen) {
   refuses({.width = 0}, "give a length above 0");
   refuses({.hole_radius = 2}, "has none; leave it out");
   refuses({.shape = "plate_with_hole", .hole_radius = 6}, "does not fit into");
-  refuses({.shape = "dog_bone", .gauge_section = 5, .gauge_width = 4, .fillet = 1}, "no dog-bone");
+  refuses({.shape = "dog_bone", .gauge_section = 5, .gauge_width = 4, .fillet = 1}, "do not rise");
+  refuses({.shape = "dog_bone", .gauge_section = 18, .gauge_width = 4, .fillet = 5}, "a shorter gauge section");
+  refuses({.shape = "dog_bone", .gauge_section = 5, .gauge_width = 12, .fillet = 5}, "give a gauge width below it");
+  refuses({.elements = "[8589934592, 8589934592]"}, "at most");
   refuses({.elements = "[0, 4]"}, "two numbers from 2 on");
   refuses({.elements = "[4000, 4000]"}, "at most");
   refuses({.marks_along = 0}, "distance of the marks");

@@ -255,5 +255,35 @@ TEST(Compressible, WithoutCompressibilityTheBaseAnswers) {
   }
 }
 
+// Energies beside a compressible model leave it without stress at rest, but for a tone.
+TEST(Compressible, AddedEnergiesLeaveNoStressAtRest) {
+  const auto at_rest = [](const std::string& mechanism, double amplitude) {
+    const auto& on_shelf = catalogue().mechanisms().at(mechanism);
+    const auto model = plugins::wrap(on_shelf, hyperfoam(1), {});
+    std::vector<double> p = foam, S(6);
+    p.push_back(amplitude);
+    for (std::size_t j = 1; j < on_shelf.factory.parameters.size(); ++j)
+      p.push_back(on_shelf.factory.parameters[j].initial);
+    const std::vector<double> rest{1, 1, 1, 0, 0, 0};
+    EXPECT_TRUE(model->evaluate({1, rest, p, {}, {}}, {{}, S, {}, {}, {}}).ok());
+    return S;
+  };
+  for (const double s : at_rest("second_invariant", 5)) EXPECT_NEAR(s, 0, 1e-12);
+  for (const double s : at_rest("axial_fibres", 5)) EXPECT_NEAR(s, 0, 1e-12);
+  const auto tone = at_rest("active_tone", 10);
+  EXPECT_NEAR(tone[0], 10, 1e-12);
+  for (std::size_t c = 1; c < 6; ++c) EXPECT_NEAR(tone[c], 0, 1e-12);
+}
+
+// A volume that nothing changes is the same after a permanent set.
+TEST(Compressible, APermanentSetLeavesTheVolume) {
+  const auto& on_shelf = catalogue().mechanisms().at("permanent_set");
+  const auto strip = plugins::wrap(on_shelf, make_strip({1.1, 1.4, 1.2}, {"axial", {"stress", "volume_ratio"}}), {});
+  std::vector<double> values(6);
+  const std::vector<double> own{0, 0.3}, p{30};
+  ASSERT_TRUE(strip->predict({*make_model("neo_hooke"), p, own}, {values, {}, {}, {}}).ok());
+  for (std::size_t i = 3; i < 6; ++i) EXPECT_EQ(values[i], 1);
+}
+
 }  // namespace
 }  // namespace tunica::testing::compressible_test

@@ -63,6 +63,7 @@ void define_test(Library& library, const py::dict& declared) {
   description.parameters = factory.parameters;
   description.nulls.assign(factory.parameters.size(), std::numeric_limits<double>::quiet_NaN());
   description.costly = declared["costly"].cast<bool>();
+  description.volume = TestDescription::Volume::either;  // J is what its author makes of it
   factory.create = [type = factory.type, description,
                     maker = Kept(declared["make"])](const TestSetup& setup) -> std::unique_ptr<Test> {
     auto object = guarded_making(owner_of(type), [&] {

@@ -129,7 +129,7 @@ Likelihood = Literal["stated", "estimated", "mixed"]
 
 #: Why a mechanism is not looked for, or would not be seen.
 MechanismAbsence = Literal["none", "no_trace", "absorbed", "no_clock", "already_there", "no_place", "not_applicable",
-    "isotropic", "no_past"]
+    "isotropic", "no_volume", "no_past"]
 
 #: What the noise of a channel rests on.
 NoiseOrigin = Literal["stated", "replicates", "smooth_shapes", "assumed"]

@@ -2,6 +2,7 @@
 #include "assembly/builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -120,6 +121,23 @@ void refuse_converted_force(const experiment::TestEntry& entry, const std::vecto
           entry.name, name));
 }
 
+/// A size that the test simulates beside the one that the program divides forces or displacements by.
+void look_at_sizes(const experiment::TestEntry& entry, std::vector<std::string>& warnings) {
+  const data::Sizes& specimen = entry.data.specimen.all;
+  const auto compare = [&](const char* option, const char* size, const std::optional<double>& of_specimen) {
+    if (!of_specimen || !entry.options.has(option)) return;
+    const double simulated = entry.options.number(option);
+    if (std::abs(simulated - *of_specimen) <= 1e-6 * *of_specimen) return;
+    warnings.push_back(
+        fmt::format("test '{}': its \"{}\" is {:g} mm, and the \"{}\" of the specimen, which the program divides by, "
+                    "{:g} mm; correct "
+                    "one of the two, unless they are two lengths",
+                    entry.name, option, simulated, size, *of_specimen));
+  };
+  compare("width", "width", specimen.width);
+  compare("length", "gauge_length", specimen.gauge_length);
+}
+
 std::string words_on_unstated(std::vector<std::string> channels) {
   constexpr std::size_t told = 3;
   const std::size_t more = channels.size() > told ? channels.size() - told : 0;
@@ -197,6 +215,7 @@ void Builder::add_test(std::size_t number) {
   if (test.layers.empty()) refuse_unread(test, parts_.models.front());
   chain_parameters(test, layout.parameters.size());
   const auto& observables = catalogue_.tests().at(entry.type).factory.observables;
+  look_at_sizes(entry, layout.warnings);
   refuse_converted_force(entry, observables, *test.model);
   add_stretches(*test.test, observables, entry.name, parts_.strips, parts_.largest_stretch);
   const std::vector<std::string> names = experiment_.models_of(run_);

@@ -47,9 +47,10 @@ struct Budget {
   std::vector<std::string> same_with;  ///< those causes
   /// What the data lack for a mechanism to be tried.
   enum class Lack {
-    clock,   ///< there is no time
-    order,   ///< nobody says in which order the rows were measured
-    loading  ///< the first rows lie far from rest
+    clock,    ///< there is no time
+    order,    ///< nobody says in which order the rows were measured
+    loading,  ///< the first rows lie far from rest
+    volume    ///< neither a lateral stretch nor a volume was measured
   };
   struct Untried {
     std::string id;

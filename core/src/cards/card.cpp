@@ -58,6 +58,9 @@ std::string_view volume_law_of(Target target, const Material& material) {
 double fitted_bulk(Target target, const Material& material, const CardSettings& settings) {
   if (settings.bulk_ratio)
     throw InputError("bulk ratio: found one beside a fit that has its own bulk modulus; leave it out");
+  if (target == Target::febio && has_fibres(material))
+    throw CannotExpress{"the energy of the volume in its Holzapfel-Gasser-Ogden material differs between versions",
+                        "fit it without \"compressibility\""};
   if (target == Target::lsdyna)
     throw CannotExpress{"its cards take Poisson's ratio near 1/2, and the fit has a bulk modulus", ""};
   const std::string_view law = volume_law_of(target, material);

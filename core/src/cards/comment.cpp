@@ -12,11 +12,11 @@ namespace tunica::cards {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 24> spellings{
-    {{"λ", "lambda"}, {"μ", "mu"},  {"µ", "mu"}, {"α", "alpha"}, {"κ", "kappa"}, {"θ", "theta"},
-     {"ψ", "psi"},    {"χ", "chi"}, {"ν", "nu"}, {"σ", "sigma"}, {"√", "sqrt"},  {"²", "^2"},
-     {"³", "^3"},     {"·", "*"},   {"×", "x"},  {"±", "+-"},    {"−", "-"},     {"–", "-"},
-     {"—", "-"},      {"…", "..."}, {"≤", "<="}, {"≥", ">="},    {"°", " deg"},  {"½", "1/2"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 25> spellings{
+    {{"λ", "lambda"}, {"μ", "mu"},     {"µ", "mu"},   {"α", "alpha"}, {"κ", "kappa"}, {"θ", "theta"}, {"ψ", "psi"},
+     {"χ", "chi"},    {"Δ", "delta "}, {"ν", "nu"},   {"σ", "sigma"}, {"√", "sqrt"},  {"²", "^2"},    {"³", "^3"},
+     {"·", "*"},      {"×", "x"},      {"±", "+-"},   {"−", "-"},     {"–", "-"},     {"—", "-"},     {"…", "..."},
+     {"≤", "<="},     {"≥", ">="},     {"°", " deg"}, {"½", "1/2"}}};
 
 }  // namespace
 

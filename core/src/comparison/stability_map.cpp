@@ -46,6 +46,11 @@ Strips judge_strips(const assembly::Assembly& assembly, std::span<const double> 
   Strips worst;
   for (std::size_t m = 0; m < assembly.models().count(); ++m) {
     const auto parameters = assembly.models().parameters(m, free);
+    if (assembly.models().model(m).describe().compressible)
+      throw InputError(fmt::format(
+          "stability map: the model '{}' changes its volume, and transverse stability is that of an incompressible "
+          "material; choose an incompressible model",
+          assembly.models().name(m)));
     for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
       const auto verdict = stability::judge_transverse(assembly.models().model(m), parameters, axis, {}, limit);
       auto& first = worst.first_unstable[axis];

@@ -59,6 +59,10 @@ std::vector<RawName> raw_names(const std::vector<Observable>& observables) {
       add(observable, stretch_word, "true_strain", From::true_strain, "1");
       add(observable, stretch_word, "green_strain", From::green_strain, "1");
     }
+    if (observable.kind == Observable::Kind::stretch && observable.role == Observable::Role::channel) {
+      add(observable, stretch_word, "strain", From::strain, "1");
+      add(observable, stretch_word, "true_strain", From::true_strain, "1");
+    }
     if (observable.kind == Observable::Kind::stress) add(observable, stress_word, "force", From::force, "mN");
   }
   return names;

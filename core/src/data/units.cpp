@@ -193,7 +193,7 @@ double parse_quantity(std::string_view text, std::string_view base_unit) {
 std::string unit_in_name(const std::string& name, std::string_view base) {
   constexpr std::array<std::string_view, 15> usual{"N",  "mN", "kN", "uN", "Pa", "kPa", "MPa", "mmHg",
                                                    "mm", "um", "cm", "ms", "s",  "min", "deg"};
-  const std::size_t at = name.rfind('_');
+  const std::size_t at = name.find_last_of("_/");
   if (at == std::string::npos || at == 0 || base == "1") return {};
   const std::string unit = name.substr(at + 1);
   if (std::find(usual.begin(), usual.end(), unit) == usual.end()) return {};

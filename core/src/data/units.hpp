@@ -11,7 +11,7 @@ namespace tunica::data {
 double convert(double value, std::string_view from, std::string_view to);
 bool is_unit(std::string_view unit);
 
-/// The unit at the end of the name of a column, "N" of "Force_N", where it is a usual one that converts to the base
+/// The unit at the end of the name of a column, "N" of "Force_N" and of "Kraft/N", where it is a usual one that converts to the base
 /// unit; else empty.
 std::string unit_in_name(const std::string& name, std::string_view base);
 

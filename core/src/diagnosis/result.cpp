@@ -154,6 +154,8 @@ const char* code_of(Absence absence) {
       return "not_applicable";
     case Absence::isotropic:
       return "isotropic";
+    case Absence::no_volume:
+      return "no_volume";
     case Absence::no_past:
       break;
   }
@@ -162,7 +164,7 @@ const char* code_of(Absence absence) {
 
 bool can_hide(Absence absence) {
   return absence == Absence::none || absence == Absence::no_trace || absence == Absence::absorbed ||
-         absence == Absence::no_clock || absence == Absence::no_past;
+         absence == Absence::no_clock || absence == Absence::no_past || absence == Absence::no_volume;
 }
 
 const char* code_of(WarningKind kind) {

@@ -132,7 +132,9 @@ FittedMaterial fitted_material(const ExportRequest& request) {
     if (id == "compressibility" && !compressible)
       throw InputError(fmt::format(
           "{}: the mechanism 'compressibility' of the model '{}' has full invariants, and the cards' materials "
-          "have isochoric ones; fit it with \"invariants\": \"isochoric\"",
+          "have isochoric ones; fit it with \"invariants\": \"isochoric\" and the \"law\" of the program: "
+          "\"logarithmic\" for "
+          "FEBio, else \"quadratic\"",
           file, fitted.name));
     if (!compressible)
       throw InputError(fmt::format(

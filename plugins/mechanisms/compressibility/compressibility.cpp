@@ -91,7 +91,7 @@ class CompressibleModel final : public Model {
       const double a = isochoric_ ? 0 : at_rest;
       s.volumes[i].add(law.u / c - a * theta, law.by_theta / c - a, law.by_theta_twice / c, out, n, i);
       for (std::size_t j = 0; j < count_ && !isochoric_ && !out.stress_dp.empty(); ++j)
-        s.volumes[i].add_parameter(j, -s.at_rest_dp[6 * j], out, n, i);
+        s.volumes[i].add_parameter(j, -s.at_rest_dp[6 * j + 2], out, n, i);
       s.volumes[i].add_parameter(count_, -law.by_theta / (c * c), out, n, i);
     }
     return {};
@@ -119,7 +119,7 @@ class CompressibleModel final : public Model {
     std::array<double, 36> A{};
     const Status status =
         base_->evaluate({1, identity, parameters, {}, {}}, {{}, S, {A.data(), none ? A.size() : 0}, stress_dp, {}});
-    stress_at_rest = S[0];
+    stress_at_rest = S[2];
     if (!none) return status;
     double stiffness = 0;
     for (const double entry : S) stiffness = std::max(stiffness, std::abs(entry));

@@ -160,13 +160,13 @@ class PermanentSetTest final : public DecoratedTest {
   Channels channels_;
 };
 
-/// Powers of p for the channels of a strip: σ, P/p, S/p², lengths across it p^(−1/2).
+/// Powers of p for the channels of a strip: σ, P/p, S/p², lengths across it p^(−1/2), J.
 Channels channels_of(const Test& strip, std::size_t abscissa) {
   Channels channels;
   for (std::size_t k = 0; k < strip.rows().channels.size(); ++k) {
     const bool stress = strip.rows().channels[k] == "stress";
     channels.stress.push_back(stress);
-    channels.powers.push_back(-0.5);
+    channels.powers.push_back(strip.rows().channels[k] == "volume_ratio" ? 0 : -0.5);
     if (!stress) continue;
     const std::optional<int> power = abscissa_errors::force_power(strip, abscissa, k);
     if (!power)

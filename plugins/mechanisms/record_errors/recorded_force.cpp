@@ -56,6 +56,14 @@ class RecordedTest : public DecoratedTest {
     return {};
   }
 
+  /// σ/λ is the nominal stress where the volume is kept.
+  [[nodiscard]] Status carries(const TestInput& input) const {
+    if (strip_.power != -1 || input.model.keeps_volume(input.model_parameters)) return {};
+    return Status::failed(
+        "the force of a material that changes its volume does not follow from Cauchy stress; give "
+        "\"stress_measure\": \"first_piola_kirchhoff\"");
+  }
+
   /// The base's own numbers, and the column of the amplitude.
   template <class Column>
   Status at_null(const TestInput& input, const TestOutput& output, const Column& column) const {
@@ -75,6 +83,7 @@ class ZeroedTest final : public RecordedTest {
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const double a = amplitude(input);
+    if (Status status = carries(input); !status.ok()) return status;
     const bool path = remembers(input);
     if (a == 0)
       return at_null(input, output, [&](std::span<double> column) {
@@ -131,6 +140,7 @@ class YieldingTest final : public RecordedTest {
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const double a = amplitude(input);
+    if (Status status = carries(input); !status.ok()) return status;
     if (remembers(input))
       return Status::failed("the compliance of the machine is not known beside a material with memory");
     const std::size_t n = rows().count, size = prediction_count(), first = strip().channel * n;

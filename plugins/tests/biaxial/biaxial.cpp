@@ -53,8 +53,10 @@ class Biaxial final : public Test {
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const auto columns = input.abscissae.empty() ? std::span<const std::span<const double>>(bound_) : input.abscissae;
-    if (free_faces::changes_volume(input, output)) return predict_compressible(sheet_, columns, input, output);
-    return predict_at_constant_volume(columns, free_faces::without_compressibility(input), output);
+    return free_faces::by_volume(
+        input, output,
+        [&](const TestInput& at, const TestOutput& out) { return predict_at_constant_volume(columns, at, out); },
+        [&](const TestInput& at, const TestOutput& out) { return predict_compressible(sheet_, columns, at, out); });
   }
 
  private:

@@ -13,10 +13,9 @@ constexpr std::size_t rr = 2;
 
 }  // namespace
 
-Membrane::Membrane(const Model& model, std::span<const double> parameters, std::array<double, 2> along)
-    : model_(model),
-      parameters_(parameters),
-      compressible_(model.describe().compressible && !model.keeps_volume(parameters)) {
+Membrane::Membrane(const Model& model, std::span<const double> parameters, std::array<double, 2> along,
+                   bool compressible)
+    : model_(model), parameters_(parameters), compressible_(compressible) {
   const auto [t, z] = along;
   dyad_ = {{{t * t, z * z, t * z}, {z * z, t * t, -t * z}, {-t * z, t * z, 0.5 * (t * t - z * z)}}};
 }

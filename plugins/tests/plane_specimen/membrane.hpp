@@ -21,8 +21,8 @@ namespace tunica::plane {
 /// (physics: docs/theory.md, plane specimens). Components are xx, yy, xy; an off-diagonal entry is the tensor's.
 class Membrane {
  public:
-  /// `along` is the unit vector of x in the axes t and z.
-  Membrane(const Model& model, std::span<const double> parameters, std::array<double, 2> along);
+  /// `along` is the unit vector of x in the axes t and z; `compressible`: whether the thickness is solved for.
+  Membrane(const Model& model, std::span<const double> parameters, std::array<double, 2> along, bool compressible);
 
   /// C̄ of n points, 3n entries, component-major.
   std::vector<double> C;

@@ -48,12 +48,22 @@ Shape shape_of(const Options& given) {
     shape.gauge_width = positive(given, "gauge_width");
     shape.fillet = positive(given, "fillet");
     const double rise = (shape.width - shape.gauge_width) / 2;
-    if (!(rise > 0) || shape.fillet < rise || !(shape.gauge_section < shape.length))
+    if (!(rise > 0))
+      throw InputError(fmt::format(
+          "plane_specimen: \"gauge_width\" is {:g} mm, and \"width\" at the grips {:g} mm; give a gauge width below it",
+          shape.gauge_width, shape.width));
+    if (shape.fillet < rise)
       throw InputError(
-          fmt::format("plane_specimen: no dog-bone has {:g} mm at the grips, {:g} mm over {:g} of {:g} mm and arcs of "
-                      "{:g} mm; give a "
-                      "gauge section that is narrower and shorter than the specimen, and arcs of at least {:g} mm",
-                      shape.width, shape.gauge_width, shape.gauge_section, shape.length, shape.fillet, rise));
+          fmt::format("plane_specimen: arcs of \"fillet\" {:g} mm do not rise from {:g} to {:g} mm; give a radius of "
+                      "{:g} mm or more",
+                      shape.fillet, shape.gauge_width, shape.width, rise));
+    const double needed = shape.gauge_section + 2 * std::sqrt(rise * (2 * shape.fillet - rise));
+    if (needed > shape.length * (1 + 1e-9))
+      throw InputError(
+          fmt::format("plane_specimen: \"gauge_section\" and arcs of \"fillet\" {:g} mm take {:g} mm, and \"length\" "
+                      "between the grips "
+                      "is {:g} mm; give a shorter gauge section, a smaller fillet or a larger length",
+                      shape.fillet, needed, shape.length));
   }
   if (plate) {
     shape.hole = positive(given, "hole_radius");
@@ -74,7 +84,8 @@ std::array<std::size_t, 2> elements_of(const std::string& text, const Shape& sha
   }
   const bool pair = given.is_array() && given.size() == 2 && given[0].is_number_unsigned() &&
                     given[1].is_number_unsigned() && given[0] >= 2 && given[1] >= 2;
-  if (!pair || static_cast<std::size_t>(given[0]) * static_cast<std::size_t>(given[1]) > most_elements)
+  if (!pair || given[0] > most_elements || given[1] > most_elements ||
+      static_cast<std::size_t>(given[0]) * static_cast<std::size_t>(given[1]) > most_elements)
     throw InputError(
         fmt::format("plane_specimen: \"elements\" is {}; give two numbers from 2 on, [along, across], for "
                     "example [24, 12]; at most {} in all",
@@ -110,18 +121,22 @@ class PlaneSpecimen final : public Test {
       return Status::failed(
           "plane_specimen: the model remembers its history, and rows are simulated at equilibrium; choose "
           "a model without history");
-    if (!free_faces::changes_volume(input, output))
-      return pull(free_faces::without_compressibility(input), output, elements_);
-    return pull(input, output, elements_);
+    return free_faces::by_volume(
+        input, output,
+        [this](const TestInput& at, const TestOutput& out) { return pull(at, out, *body(at, false), false); },
+        [this](const TestInput& at, const TestOutput& out) { return pull(at, out, *body(at, true), true); });
   }
 
   /// With twice as many elements along and across.
   Status agreement(const TestInput& input, std::vector<Agreement>& found) const override {
     const std::size_t n = rows_.count, m = gauges_.size();
     std::vector<double> coarse(n * m), fine(n * m);
-    if (Status status = pull(input, {coarse, {}, {}, {}}, elements_); !status.ok()) return status;
-    if (Status status = pull(input, {fine, {}, {}, {}}, {2 * elements_[0], 2 * elements_[1]}); !status.ok())
-      return status;
+    const bool changing = changes(input);
+    const TestInput at = changing ? input : free_faces::without_compressibility(input);
+    const auto used = body(at, changing);
+    const Body finer(shape_, mesh_of(shape_, 2 * elements_[0], 2 * elements_[1], used->mesh().quarter), ends_);
+    if (Status status = pull(at, {coarse, {}, {}, {}}, *used, changing); !status.ok()) return status;
+    if (Status status = pull(at, {fine, {}, {}, {}}, finer, changing); !status.ok()) return status;
     for (std::size_t k = 0; k < m; ++k) {
       double difference = 0, largest = 0;
       for (std::size_t i = 0; i < n; ++i) {
@@ -138,7 +153,8 @@ class PlaneSpecimen final : public Test {
   Status snapshots(const TestInput& input, std::span<const std::size_t> wanted,
                    std::vector<Snapshot>& found) const override {
     const Body body(shape_, mesh_of(shape_, elements_[0], elements_[1], false), ends_);
-    Pulling pulling(body, input.model, input.model_parameters, along_);
+    const TestInput at = changes(input) ? input : free_faces::without_compressibility(input);
+    Pulling pulling(body, at.model, at.model_parameters, along_, changes(input));
     const Gauge driver = gauge_of(body, Gauge::Kind::stretch);
     for (std::size_t i = 0; i < rows_.count; ++i) {
       if (auto problem = go_to(pulling, x_[i], driver)) return Status::failed(row_name(i, x_[i]) + *problem);
@@ -155,11 +171,16 @@ class PlaneSpecimen final : public Test {
       by_gauge_ = column.observable == "gauge_stretch";
       rows_.abscissae = {column};
     }
-    if (setup.rows.abscissae.size() != 1 || x_.empty())
+    if (setup.rows.abscissae.size() > 1)
       throw InputError(
-          "plane_specimen: no rows, or not one column mapped to 'stretch', of the grips, or 'gauge_stretch'; map one "
-          "of the "
-          "two in \"columns\"");
+          "plane_specimen: both 'stretch', of the grips, and 'gauge_stretch', of the marks, are mapped; keep one of "
+          "them, and "
+          "map the other to 'mark_stretch' where it is the marks'");
+    if (x_.empty())
+      throw InputError(
+          "plane_specimen: no column is mapped to 'stretch', of the grips, or 'gauge_stretch', of the marks; map one "
+          "in "
+          "\"columns\"");
     for (std::size_t i = 0; i < x_.size(); ++i)
       if (!(x_[i] > 0 && std::isfinite(x_[i])))
         throw InputError("plane_specimen: row " + std::to_string(i + 1) + " has stretch " + std::to_string(x_[i]) +
@@ -219,40 +240,49 @@ class PlaneSpecimen final : public Test {
     return by_gauge_ ? pulling.move_to(x, &driver) : pulling.move_to((x - 1) * shape_.length, nullptr);
   }
 
-  /// Whether a strip along x of this material bears no shear, so that a quarter stands for the whole.
-  [[nodiscard]] bool is_symmetric(const TestInput& input) const {
-    Membrane membrane(input.model, input.model_parameters, along_);
-    const std::array<std::array<double, 2>, 3> stretches{{{1.1, 0.97}, {0.93, 1.05}, {1.05, 1.08}}};
-    membrane.resize(stretches.size());
-    for (std::size_t i = 0; i < stretches.size(); ++i)
-      for (std::size_t a = 0; a < 2; ++a) membrane.C[a * stretches.size() + i] = stretches[i][a] * stretches[i][a];
+  [[nodiscard]] static bool changes(const TestInput& input) {
+    return input.model.describe().compressible && !input.model.keeps_volume(input.model_parameters);
+  }
+
+  /// Whether this material bears no shear where it is stretched along x and y, within and beyond the stretches of the
+  /// rows, so that a quarter stands for the whole.
+  [[nodiscard]] bool is_symmetric(const TestInput& input, bool changing) const {
+    if (angled_) return false;
+    const auto [least, largest] = std::minmax_element(x_.begin(), x_.end());
+    std::vector<std::array<double, 2>> states;
+    for (const double x : {*least, *largest, 1 + 0.5 * (*largest - 1), 1 + 1.5 * (*largest - 1), 0.97, 1.08})
+      for (const double power : {0.0, 0.5, 1.0}) states.push_back({x, std::pow(x, -power)});
+    Membrane membrane(input.model, input.model_parameters, along_, changing);
+    const std::size_t n = states.size();
+    membrane.resize(n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t a = 0; a < 2; ++a) membrane.C[a * n + i] = states[i][a] * states[i][a];
     if (!membrane.evaluate(false, false)) return false;
-    for (std::size_t i = 0; i < stretches.size(); ++i) {
-      const double normal = std::abs(membrane.stress[i]) + std::abs(membrane.stress[stretches.size() + i]);
-      if (std::abs(membrane.stress[2 * stretches.size() + i]) > 1e-10 * normal) return false;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double normal = std::abs(membrane.stress[i]) + std::abs(membrane.stress[n + i]);
+      if (std::abs(membrane.stress[2 * n + i]) > 1e-10 * normal) return false;
     }
     return true;
   }
 
-  /// The specimen is meshed once for a size and a symmetry.
-  [[nodiscard]] std::shared_ptr<const Body> body(const std::array<std::size_t, 2>& elements, bool quarter) const {
+  /// The mesh, whole or a quarter of it, made once.
+  [[nodiscard]] std::shared_ptr<const Body> body(const TestInput& input, bool changing) const {
+    const bool quarter = is_symmetric(input, changing);
     const std::lock_guard lock(mutex_);
-    for (const auto& [of, whole, made] : bodies_)
-      if (of == elements && whole == quarter) return made;
-    auto made = std::make_shared<const Body>(shape_, mesh_of(shape_, elements[0], elements[1], quarter), ends_);
-    bodies_.emplace_back(elements, quarter, made);
+    std::shared_ptr<const Body>& made = bodies_[quarter ? 1 : 0];
+    if (made == nullptr)
+      made = std::make_shared<const Body>(shape_, mesh_of(shape_, elements_[0], elements_[1], quarter), ends_);
     return made;
   }
 
-  Status pull(const TestInput& input, const TestOutput& output, const std::array<std::size_t, 2>& elements) const {
+  Status pull(const TestInput& input, const TestOutput& output, const Body& on, bool changing) const {
     const bool wants_parameters = !output.jacobian.empty();
     if (wants_parameters && !input.model.describe().parameter_derivatives)
       return Status::failed("plane_specimen: the model has no parameter derivatives; difference the whole prediction");
-    const auto on = body(elements, is_symmetric(input));
-    Pulling pulling(*on, input.model, input.model_parameters, along_);
-    const Gauge driver = gauge_of(*on, Gauge::Kind::stretch);
+    Pulling pulling(on, input.model, input.model_parameters, along_, changing);
+    const Gauge driver = gauge_of(on, Gauge::Kind::stretch);
     std::vector<Gauge> gauges;
-    for (const Gauge::Kind kind : kinds_) gauges.push_back(gauge_of(*on, kind));
+    for (const Gauge::Kind kind : kinds_) gauges.push_back(gauge_of(on, kind));
     const std::span<const double> x = input.abscissae.empty() ? std::span<const double>(x_) : input.abscissae[0];
     const std::size_t n = rows_.count, size = n * gauges.size(), parameters = input.model_parameters.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -339,7 +369,7 @@ class PlaneSpecimen final : public Test {
   TestRows rows_;
   TestDescription description_;
   mutable std::mutex mutex_;
-  mutable std::vector<std::tuple<std::array<std::size_t, 2>, bool, std::shared_ptr<const Body>>> bodies_;
+  mutable std::array<std::shared_ptr<const Body>, 2> bodies_;  ///< the whole, a quarter
 };
 
 TestFactory factory() {
@@ -348,8 +378,8 @@ TestFactory factory() {
           "A thin strip, dog-bone or plate with a hole between two grips, by finite elements in plane stress.",
           "Bonet, Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (2008)",
           {Option::choice("shape", {"strip", "dog_bone", "plate_with_hole"}, "strip", "Outline of the specimen."),
-           Option::quantity("length", "mm", 0, "Unloaded distance of the grips.", 0.0),
-           Option::quantity("width", "mm", 0, "Unloaded width at the grips.", 0.0),
+           Option::quantity("length", "mm", 0, "Unloaded distance of the grips."),
+           Option::quantity("width", "mm", 0, "Unloaded width at the grips."),
            length("gauge_section", "Length of the narrow part of a dog-bone."),
            length("gauge_width", "Width of the narrow part of a dog-bone."),
            length("fillet", "Radius of the arcs between the narrow part and the width at the grips."),
@@ -368,11 +398,11 @@ TestFactory factory() {
                "null chooses.")},
           {{"stretch", "1", Role::abscissa, false, "Distance of the grips over that unloaded.", Kind::stretch},
            {"gauge_stretch", "1", Role::abscissa, false,
-            "Distance of the marks on the axis over that unloaded, in place of the "
+            "Distance of the marks along the axis over that unloaded, in place of the "
             "stretch of the grips.",
             Kind::stretch},
            {"stress", "kPa", Role::channel, false, "Force over the unloaded section at the grips.", Kind::stress},
-           {"mark_stretch", "1", Role::channel, false, "Distance of the marks on the axis over that unloaded.",
+           {"mark_stretch", "1", Role::channel, false, "Distance of the marks along the axis over that unloaded.",
             Kind::stretch},
            {"mark_transverse_stretch", "1", Role::channel, false,
             "Distance of the marks across the axis over that unloaded.", Kind::stretch}},

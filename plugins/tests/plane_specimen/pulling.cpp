@@ -6,8 +6,9 @@
 
 namespace tunica::plane {
 
-Pulling::Pulling(const Body& body, const Model& model, std::span<const double> parameters, std::array<double, 2> along)
-    : body_(body), membrane_(model, parameters, along), u_(body.dofs(), 0.0), K_(body.pattern()) {
+Pulling::Pulling(const Body& body, const Model& model, std::span<const double> parameters, std::array<double, 2> along,
+                 bool compressible)
+    : body_(body), membrane_(model, parameters, along, compressible), u_(body.dofs(), 0.0), K_(body.pattern()) {
   membrane_.resize(body.points());
 }
 
@@ -29,11 +30,11 @@ bool Pulling::factor() {
   return factored_;
 }
 
-Eigen::VectorXd Pulling::solve(const std::vector<double>& of_dofs) const {
+Eigen::VectorXd Pulling::solve(const Factor& factor, const std::vector<double>& of_dofs) const {
   const auto& free = body_.free();
   Eigen::VectorXd right(static_cast<Eigen::Index>(free.size()));
   for (std::size_t k = 0; k < free.size(); ++k) right[static_cast<Eigen::Index>(k)] = of_dofs[free[k]];
-  return factor_.solve(right);
+  return factor.solve(right);
 }
 
 /// K du = −f − (∂f/∂d) dd, and dd from the gauge where it is the driver. The factor of the state before makes the first
@@ -46,8 +47,8 @@ bool Pulling::newton(double target, const Gauge* driver) {
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     factored_ = factored_ && reuse;
     if (!evaluate(!reuse, false) || (!reuse && !factor())) return false;
-    if (!reuse) along_ = -solve(by_pull_);
-    const Eigen::VectorXd rest = -solve(f_);
+    if (!reuse) along_ = -solve(factor_, by_pull_);
+    const Eigen::VectorXd rest = -solve(factor_, f_);
     double dpull = driver == nullptr ? target - pull_ : 0;
     if (driver != nullptr) dpull = (target - value(*driver) - reading(*driver, rest, 0)) / reading(*driver, along_, 1);
     const Eigen::VectorXd du = rest + dpull * along_;
@@ -61,7 +62,7 @@ bool Pulling::newton(double target, const Gauge* driver) {
     for (const double x : u_) size = std::max(size, std::abs(x));
     // A step with its own factor leaves its square behind, one with an older factor a share of itself.
     if (largest <= (reuse ? 1e-12 : 1e-8) * size) return evaluate(false, false);
-    if (iteration > 6 && largest > before) return false;
+    if (iteration > 2 && largest > 2 * before) return false;
     reuse = reuse ? iteration > 0 && largest < 0.1 * before : largest < 0.02 * size;
     before = largest;
   }
@@ -81,8 +82,8 @@ std::optional<std::string> Pulling::move_to(double target, const Gauge* driver) 
   driver_ = driver;
   const double from = driver == nullptr ? pull_ : value(*driver);
   double reached = 0, step = 1;
-  for (int trial = 0; trial < 60; ++trial) {
-    const std::vector<double> u = u_;
+  for (int trial = 0; trial < 60 && step > smallest_step; ++trial) {
+    const std::vector<double> u = u_, normal = membrane_.normal;
     const double pull = pull_;
     const double next = std::min(1.0, reached + step);
     if (newton(from + next * (target - from), driver)) {
@@ -92,6 +93,7 @@ std::optional<std::string> Pulling::move_to(double target, const Gauge* driver) 
     } else {
       u_ = u;
       pull_ = pull;
+      membrane_.normal = normal;
       step /= 3;
       factored_ = false;
     }
@@ -101,12 +103,21 @@ std::optional<std::string> Pulling::move_to(double target, const Gauge* driver) 
          "bounds of the model's parameters";
 }
 
+/// With a factor and a normal stretch of its own: whether derivatives are wanted must not change the rows that follow.
 bool Pulling::linearise(bool by_parameters, const Gauge* driver) {
   driver_ = driver;
-  if (!evaluate(true, by_parameters) || !factor()) return false;
-  along_ = -solve(by_pull_);
-  target_slope_ = 1;
-  if (driver != nullptr) target_slope_ = 1 / change(*driver, along_, 1, by_pull_);
+  const std::vector<double> normal = membrane_.normal;
+  const bool evaluated = evaluate(true, by_parameters);
+  membrane_.normal = normal;
+  if (!evaluated) return false;
+  body_.stiffness(F_, membrane_, K_, linear_.by_pull);
+  if (!linear_.analysed) linear_.factor.analyzePattern(K_);
+  linear_.analysed = true;
+  linear_.factor.factorize(K_);
+  if (linear_.factor.info() != Eigen::Success) return false;
+  linear_.along = -solve(linear_.factor, linear_.by_pull);
+  linear_.slope = 1;
+  if (driver != nullptr) linear_.slope = 1 / reading(*driver, linear_.along, 1);
   return true;
 }
 
@@ -131,27 +142,27 @@ double Pulling::change(const Gauge& gauge, const Eigen::VectorXd& du, double dpu
   const auto& free = body_.free();
   const double sum = grip_force(df);
   double by_u = 0;
-  for (std::size_t k = 0; k < free.size(); ++k) by_u += by_pull_[free[k]] * du[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < free.size(); ++k) by_u += linear_.by_pull[free[k]] * du[static_cast<Eigen::Index>(k)];
   return (sum + (body_.mesh().quarter ? 4 : 1) * by_u) / gauge.area;
 }
 
 double Pulling::by_target(const Gauge& gauge) const {
-  std::vector<double> df = by_pull_;
-  for (double& x : df) x *= target_slope_;
-  return change(gauge, target_slope_ * along_, target_slope_, df);
+  std::vector<double> df = linear_.by_pull;
+  for (double& x : df) x *= linear_.slope;
+  return change(gauge, linear_.slope * linear_.along, linear_.slope, df);
 }
 
 double Pulling::by_parameter(const Gauge& gauge, std::size_t j) const {
   const std::size_t n = 3 * body_.points();
   std::vector<double> df;
   body_.forces(F_, std::span(membrane_.stress_dp).subspan(j * n, n), df);
-  Eigen::VectorXd du = -solve(df);
+  Eigen::VectorXd du = -solve(linear_.factor, df);
   double dpull = 0;
   if (driver_ != nullptr) {
-    dpull = -change(*driver_, du, 0, df) * target_slope_;
-    du += dpull * along_;
+    dpull = -change(*driver_, du, 0, df) * linear_.slope;
+    du += dpull * linear_.along;
   }
-  for (std::size_t dof = 0; dof < df.size(); ++dof) df[dof] += dpull * by_pull_[dof];
+  for (std::size_t dof = 0; dof < df.size(); ++dof) df[dof] += dpull * linear_.by_pull[dof];
   return change(gauge, du, dpull, df);
 }
 

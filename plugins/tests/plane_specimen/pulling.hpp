@@ -28,7 +28,8 @@ struct Gauge {
 /// Newton's method on both; the second equation by block elimination with the factor at hand.
 class Pulling {
  public:
-  Pulling(const Body& body, const Model& model, std::span<const double> parameters, std::array<double, 2> along);
+  Pulling(const Body& body, const Model& model, std::span<const double> parameters, std::array<double, 2> along,
+          bool compressible);
 
   /// Brings the specimen to a pull d, or to a stretch of the gauge. Steps on the way are halved where Newton fails.
   /// Empty where it arrived, else what went wrong.
@@ -47,11 +48,13 @@ class Pulling {
   [[nodiscard]] const std::vector<std::array<double, 4>>& gradients() const { return F_; }
 
  private:
+  using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
   static constexpr int most_iterations = 25;
+  static constexpr double smallest_step = 2e-3;  ///< of the way from row to row
   bool evaluate(bool with_tangent, bool with_parameters);
   bool factor();
   bool newton(double target, const Gauge* driver);
-  [[nodiscard]] Eigen::VectorXd solve(const std::vector<double>& of_dofs) const;
+  [[nodiscard]] Eigen::VectorXd solve(const Factor& factor, const std::vector<double>& of_dofs) const;
   /// Of a stretch: what these changes of the free displacements and of the pull do to it.
   [[nodiscard]] double reading(const Gauge& gauge, const Eigen::VectorXd& du, double dpull) const;
   /// The change of a gauge with these changes of the free displacements, the pull and the forces at fixed u.
@@ -65,10 +68,17 @@ class Pulling {
   double pull_ = 0;
   std::vector<std::array<double, 4>> F_;
   Eigen::SparseMatrix<double> K_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor_;
+  Factor factor_;
   bool analysed_ = false, factored_ = false;
-  Eigen::VectorXd along_;    ///< du/dd at the solution, by unknown
-  double target_slope_ = 1;  ///< dd/dtarget
+  Eigen::VectorXd along_;  ///< du/dd at the solution, by unknown
+  /// At the solution.
+  struct Linear {
+    Factor factor;
+    bool analysed = false;
+    std::vector<double> by_pull;
+    Eigen::VectorXd along;  ///< du/dd, by unknown
+    double slope = 1;       ///< dd/dtarget
+  } linear_;
   const Gauge* driver_ = nullptr;
 };
 

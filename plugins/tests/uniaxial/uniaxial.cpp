@@ -74,8 +74,10 @@ class Uniaxial final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
-    if (free_faces::changes_volume(input, output)) return predict_compressible(strip_, radial_, input, output);
-    return predict_at_constant_volume(free_faces::without_compressibility(input), output);
+    return free_faces::by_volume(
+        input, output,
+        [this](const TestInput& at, const TestOutput& out) { return predict_at_constant_volume(at, out); },
+        [this](const TestInput& at, const TestOutput& out) { return predict_compressible(strip_, radial_, at, out); });
   }
 
  private:

@@ -17,19 +17,25 @@
 /// Tests of one material point with a compressible model: values and derivatives of every row.
 namespace tunica::free_faces {
 
-/// Whether the material of this call changes its volume. Where it keeps it, a test simulates incompressible() as ever;
-/// derivatives by the parameters, among them the one that the compressibility vanishes at, are those of the whole
-/// model.
-inline bool changes_volume(const TestInput& input, const TestOutput& output) {
-  return input.model.describe().compressible &&
-         (!output.jacobian.empty() || !input.model.keeps_volume(input.model_parameters));
-}
-/// The same call for the model without compressibility.
+/// The same call for the model without compressibility, where it keeps its volume.
 inline TestInput without_compressibility(const TestInput& input) {
   if (!input.model.describe().compressible) return input;
   const Model& model = input.model.incompressible();
   return {model, input.model_parameters.first(model.describe().parameters.size()), input.test_parameters,
           input.abscissae, input.layers};
+}
+
+/// One call of a test that can have both kinds of material: `kept(input, output)` simulates J = 1, `changing(input,
+/// output)` solves for the volume. Where a compressible model keeps its volume, the first answers, bit for bit; only
+/// the derivatives by parameters, among them the one that vanishes there, are those of the whole model.
+template <class Kept, class Changing>
+Status by_volume(const TestInput& input, const TestOutput& output, const Kept& kept, const Changing& changing) {
+  if (!input.model.describe().compressible) return kept(input, output);
+  if (!input.model.keeps_volume(input.model_parameters)) return changing(input, output);
+  TestOutput values = output;
+  values.jacobian = {};
+  const Status status = kept(without_compressibility(input), values);
+  return !status.ok() || output.jacobian.empty() ? status : changing(input, {{}, output.jacobian, {}, {}});
 }
 
 /// Predicts a test with a compressible model. A Specimen says what a row prescribes and what is read off it, written

@@ -84,8 +84,11 @@ class Point {
     if (reached < 1) {
       u_ = first;
       prescribed_ = from;
+      if (count_ == 0)
+        return Status::failed("the energy is undefined or overflows; narrow the bounds of the model's parameters");
       return Status::failed(
-          "its free faces find no equilibrium, since the energy overflows or has no minimum on the path from rest; "
+          "its free faces find no equilibrium, since the energy is undefined, overflows or has no minimum on the path "
+          "from rest; "
           "narrow the "
           "bounds of the model's parameters");
     }

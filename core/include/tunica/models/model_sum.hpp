@@ -76,6 +76,13 @@ class ModelSum final : public Model {
     return {};
   }
 
+  [[nodiscard]] bool keeps_volume(std::span<const double> parameters) const override {
+    return base_->keeps_volume(parameters.first(count_)) && (!description_.compressible || parameters[count_] == null_);
+  }
+  [[nodiscard]] const Model& incompressible() const override {
+    return description_.compressible ? base_->incompressible() : *this;
+  }
+
   bool solve_strip(const StripPath& strip, Status& status) const override {
     if (strip.parameters[count_] != null_ || !strip.stress_dp.empty() || !description_.principal_axes) return false;
     StripPath bare = strip;
@@ -91,7 +98,8 @@ class ModelSum final : public Model {
     description.axis_history_size = 0;  // memory of the base is followed in tensors
     return description;
   }
-  /// A compressible material bears no stress at rest: ψ − a ln J, a the pressure that ψ has there.
+  /// A compressible material bears no stress at rest: ψ − a ln J, a the stress of ψ
+  /// there across the wall, where no family pulls; a tone stays.
   Status relieve(const MaterialPoints& points, const MaterialResponse& out) const {
     const std::array<double, 6> rest{1, 1, 1, 0, 0, 0};
     const std::size_t n = points.count, own = out.stress_dp.empty() ? 0 : description_.parameters.size() - count_;
@@ -105,8 +113,8 @@ class ModelSum final : public Model {
       VolumeEnergy::Tensor C;
       for (std::size_t c = 0; c < 6; ++c) C[c] = points.C[c * n + i];
       const VolumeEnergy volume(C);
-      volume.add(-at_rest[0] * volume.log_volume(), -at_rest[0], 0, out, n, i);
-      for (std::size_t j = 0; j < own; ++j) volume.add_parameter(count_ + j, -at_rest_dp[6 * j], out, n, i);
+      volume.add(-at_rest[2] * volume.log_volume(), -at_rest[2], 0, out, n, i);
+      for (std::size_t j = 0; j < own; ++j) volume.add_parameter(count_ + j, -at_rest_dp[6 * j + 2], out, n, i);
     }
     return {};
   }

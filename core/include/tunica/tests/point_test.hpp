@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -85,18 +86,20 @@ class PointTest final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
-    if (free_faces::changes_volume(input, output)) {
-      const std::span<const double> bound(x_);
-      return free_faces::predict(
-          Specimen{*this},
-          input.abscissae.empty() ? std::span<const std::span<const double>>(&bound, 1) : input.abscissae, input,
-          output);
-    }
-    if (description_.volume == TestDescription::Volume::free)
+    const auto kept = [this](const TestInput& at, const TestOutput& out) {
+      if (description_.volume != TestDescription::Volume::free) return predict_at_constant_volume(at, out);
       return Status::failed(begin() +
                             "the material keeps its volume at these parameters, and this load changes it; keep the "
                             "compressibility off 0");
-    return predict_at_constant_volume(free_faces::without_compressibility(input), output);
+    };
+    return free_faces::by_volume(input, output, kept, [this](const TestInput& at, const TestOutput& out) {
+      const std::span<const double> bound(x_);
+      const auto columns = at.abscissae.empty() ? std::span<const std::span<const double>>(&bound, 1) : at.abscissae;
+      set_diagnostics(columns.front(), out.diagnostics);
+      TestOutput others = out;
+      others.diagnostics = {};
+      return free_faces::predict(Specimen{*this}, columns, at, others);
+    });
   }
 
  private:
@@ -136,7 +139,7 @@ class PointTest final : public Test {
     }
     [[nodiscard]] double diagnostic(std::size_t, std::span<const double>, const std::array<double, 6>&,
                                     const std::array<double, 6>&) const {
-      return 0;  // they follow from the abscissa: set_diagnostics()
+      return std::numeric_limits<double>::quiet_NaN();  // never asked for: set_diagnostics()
     }
     [[nodiscard]] std::string row_name(std::size_t row, std::span<const double> x) const {
       return begin() + test.place(row, x[0]);

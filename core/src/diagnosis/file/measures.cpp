@@ -42,8 +42,13 @@ bool is_measured_stress(const Record& record, const std::string& test, const dat
   return beside != nullptr && abscissa_of(record.data(test), beside->name) != nullptr;
 }
 
-/// Values of this measure where the file says another: v λ^(q′ − q), with σ = v λ^q.
+/// Values of this measure where the file says another. Where no stress is one of a force, which has the measure that
+/// the program gave it, the declaration changes; else the values, v λ^(q′ − q) with σ = v λ^q.
 bool read_as(Record& record, const std::string& test, std::string_view measure) {
+  if (columns_with(record, test, [](const data::Quantity& one) { return one.kind == Kind::force; }).empty()) {
+    record.test(test).data.stress_measure = measure;
+    return true;
+  }
   const int change = cauchy_power(measure) - cauchy_power(record.test(test).data.stress_measure);
   for (const data::Quantity& stress :
        columns_with(record, test, [&](const data::Quantity& one) { return is_measured_stress(record, test, one); })) {

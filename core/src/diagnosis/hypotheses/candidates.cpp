@@ -33,8 +33,30 @@ std::string options_key(const MechanismFactory& mechanism, const MechanismFactor
   return key;
 }
 
+bool changes_volume(const assembly::Assembly& assembly) {
+  for (std::size_t m = 0; m < assembly.models().count(); ++m)
+    if (assembly.models().model(m).describe().compressible) return true;
+  return false;
+}
+
 bool already_there(const std::vector<experiment::MechanismEntry>& entries, const std::string& id) {
   return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.type == id; });
+}
+
+/// Thrown where a mechanism changes the volume and no channel shows it.
+struct VolumeIsNotSeen {};
+
+/// Whether a lateral stretch, a volume or a load that changes it was measured. Beside a stress alone, a change of
+/// volume looks like many errors of a rig.
+bool sees_volume(const assembly::Assembly& base, const Experiment& experiment, const plugins::Catalogue& catalogue) {
+  const auto& channels = base.layout().channels;
+  return std::any_of(channels.begin(), channels.end(), [&](const assembly::MeasuredChannel& channel) {
+    const auto& observables = catalogue.tests().at(experiment.test(channel.test).type).factory.observables;
+    return std::any_of(observables.begin(), observables.end(), [&](const Observable& one) {
+      return one.name == channel.observable &&
+             (one.kind == Observable::Kind::stretch || one.name == "volume_ratio" || one.name == "pressure");
+    });
+  });
 }
 
 class CandidateSearch {
@@ -47,7 +69,8 @@ class CandidateSearch {
         projection_(projection),
         catalogue_(inquiry.catalogue),
         clock_(clock_of(evidence.experiment, evidence.run, inquiry.catalogue)),
-        quick_(inquiry.request.quick) {
+        quick_(inquiry.request.quick),
+        sees_volume_(sees_volume(*evidence.base, evidence.experiment, inquiry.catalogue)) {
     for (const assembly::TestPast& one : assembly::unknown_pasts(experiment_, run_, catalogue_))
       pasts_.emplace(one.test, one.past);
     const std::vector<std::string>& asked = inquiry.request.mechanisms;
@@ -180,6 +203,9 @@ class CandidateSearch {
           for (const double pace : clock_.paces())
             add(mechanism, {candidate.id, place, alike.front(), {}, {}, pace}, alike, found);
         if (!place.tests.empty()) all.tests.push_back(place.tests.front());
+      } catch (const VolumeIsNotSeen&) {
+        candidate.absent = "neither a lateral stretch nor a volume was measured; ask for it by name";
+        candidate.absence = Absence::no_volume;
       } catch (const InputError& problem) {
         if (!candidate.absent.empty()) continue;
         candidate.absent = problem.what();
@@ -201,6 +227,8 @@ class CandidateSearch {
     const Addition ranged = with_range(mechanism, first, settings);
     const Extension extended(experiment_, run_of(first.place), {ranged}, catalogue_);
     const assembly::Assembly& assembly = extended.assembly();
+    if (!sees_volume_ && !asked_.contains(first.id) && changes_volume(assembly) && !changes_volume(base_))
+      throw VolumeIsNotSeen();
     const auto workspace = assembly.evaluator().make_workspace();
     const std::vector<double> at_null = extended.at_null(fitted_in(extended));
     Eigen::VectorXd bare;
@@ -309,6 +337,7 @@ class CandidateSearch {
   const plugins::Catalogue& catalogue_;
   Clock clock_;
   bool quick_;
+  bool sees_volume_;
   std::map<std::string, data::Past> pasts_;  ///< of tests, where they are not known
   std::set<std::string> asked_;              ///< mechanisms, by name
   std::set<std::string> isotropic_;          ///< models
