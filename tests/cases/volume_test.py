@@ -106,6 +106,15 @@ class Volume(unittest.TestCase):
         self.refuses(experiment({"type": "hyperfoam", "mechanisms": [{"type": "compressibility"}]},
                                 {"strip": strip("stress")}), "by itself")
 
+    def test_a_lateral_strain_and_a_unit_behind_a_slash_are_read(self):
+        rows = [line.split(",") for line in (self.folder / "strip.csv").read_text(encoding="utf-8").splitlines()[1:]]
+        table = "".join(f"{l},{float(s) * 10 / 1000:.9f},{100 * (float(lateral) - 1):.6f}\n" for l, s, lateral in rows)
+        (self.folder / "strip.csv").write_text("stretch,Kraft/N,lateral [%]\n" + table, encoding="utf-8")
+        test = strip("stress", "transverse_stretch")
+        test["data"]["columns"] = {"stretch": "stretch", "force": "Kraft/N", "transverse_strain": "lateral"}
+        test["data"]["specimen"] = {"area": "10 mm2"}
+        self.recovers({"strip": test})
+
     def test_a_foam_taken_for_incompressible_is_called_compressible(self):
         diagnosis = self.result("diagnose", experiment(OGDEN, {"strip": strip("stress", "transverse_stretch")}),
                                 "--quick")["diagnosis"]

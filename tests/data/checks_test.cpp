@@ -36,10 +36,12 @@ TEST(Checks, TellStrainFromStretch) {
 }
 
 TEST(Checks, TellPercentFromAFraction) {
-  EXPECT_EQ(strip_refusal("stretch,stress [kPa]\n5,0\n20,1\n60,5\n"),
-            "strip.csv, line 4, column 1 ('stretch'): found 60 where a stretch (1 at rest) is expected; this looks "
-            "like percent. Write "
-            "stretch = 1 + strain/100 (a true stretch this large needs the unit: 'stretch [1]').");
+  EXPECT_EQ(
+      strip_refusal("stretch,stress [kPa]\n5,0\n20,1\n60,5\n"),
+      "strip.csv, line 4, column 1 ('stretch'): found 60 where a stretch (1 at rest) is expected; this looks "
+      "like percent. Map the column as \"strain\" with the unit %, in the header or under \"units\" (a true stretch "
+      "this large needs the unit: 'stretch [1]').");
+  EXPECT_NE(strip_refusal("stretch,stress [kPa]\n-54,-5\n-20,-1\n0,0\n").find("looks like percent"), std::string::npos);
   EXPECT_NE(strip_refusal("stretch [-],stress [kPa]\n0,0\n20,1\n60,5\n").find("looks like percent"), std::string::npos);
   EXPECT_NE(strip_refusal("stretch,stress [kPa]\n100,0\n120,1\n").find("Write the unit in the header: 'stretch [%]'."),
             std::string::npos);

@@ -71,7 +71,11 @@ double fitted_bulk(Target target, const Material& material, const CardSettings& 
 }
 
 double bulk_of(Target target, const Material& material, const CardSettings& settings) {
-  if (is_foam(material)) return 0;
+  if (is_foam(material)) {
+    if (settings.bulk_ratio)
+      throw InputError("bulk ratio: found one beside a foam, whose volume is that of its own energy; leave it out");
+    return 0;
+  }
   if (material.bulk > 0) return fitted_bulk(target, material, settings);
   const double usual = has_incompressible(target) ? 0 : target == Target::lsdyna ? 1e3 : 1e4;
   const double ratio = settings.bulk_ratio.value_or(usual);

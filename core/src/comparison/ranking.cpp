@@ -63,7 +63,10 @@ std::string held_by_default(const RunSummary& run) {
       const bool there = one.at_bound == (upper ? Estimate::Bound::upper : Estimate::Bound::lower);
       if (!there && (upper ? one.stops_upper : one.stops_lower).count == 0) continue;
       if ((upper ? one.upper_kind : one.lower_kind) == assembly::FreeParameter::Bound::by_default)
-        return fmt::format("{} of {}", one.name, run.label);
+        return fmt::format(
+            "{}, {} of {}",
+            there ? "a fit that a default bound holds back" : "a fit beside which searches stopped at a default bound",
+            one.name, run.label);
     }
   return "";
 }
@@ -155,7 +158,7 @@ std::vector<execution::Warning> preferences(const std::vector<RunSummary>& runs,
     if (!entry.delta_aicc) continue;
     if (const std::string held = held_by_default(runs[entry.run]); !held.empty())
       warnings.push_back({execution::WarningKind::bound_in_comparison,
-                          fmt::format("ΔAICc {:.3g} compares a fit that a default bound holds back, {}: models are "
+                          fmt::format("ΔAICc {:.3g} compares {}: models are "
                                       "compared at their optima. Widen the bound first",
                                       *entry.delta_aicc, held),
                           runs[entry.run].label});

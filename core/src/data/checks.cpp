@@ -29,12 +29,17 @@ void check_stretch(const Series& series, const Series::Column& column, std::vect
                     "Write stretch = 1 + strain, or map the column as \"strain\".",
                     series.place(0, column), column.name, column.values.front()));
   if ((from_zero && *high > 2) || (*high > largest_stretch && column.unit.empty()))
-    throw InputError(
-        fmt::format("{}: found {} where a stretch (1 at rest) is expected; this looks like percent. {}",
-                    series.place(row(high), column), *high,
-                    from_zero || *low < 50
-                        ? "Write stretch = 1 + strain/100 (a true stretch this large needs the unit: 'stretch [1]')."
-                        : "Write the unit in the header: 'stretch [%]'."));
+    throw InputError(fmt::format("{}: found {} where a stretch (1 at rest) is expected; this looks like percent. {}",
+                                 series.place(row(high), column), *high,
+                                 from_zero || *low < 50 ? "Map the column as \"strain\" with the unit %, in the header "
+                                                          "or under \"units\" (a true stretch this large "
+                                                          "needs the unit: 'stretch [1]')."
+                                                        : "Write the unit in the header: 'stretch [%]'."));
+  if (*low < -2)
+    throw InputError(fmt::format(
+        "{}: found a stretch of {}; this looks like percent. Write the unit in the header, as in 'strain [%]', "
+        "or under \"units\".",
+        series.place(row(low), column), *low));
   if (*low <= 0)
     throw InputError(
         fmt::format("{}: found a stretch of {}; expected a positive number, 1 at rest, less in compression.",

@@ -11,8 +11,8 @@ namespace tunica::data {
 double convert(double value, std::string_view from, std::string_view to);
 bool is_unit(std::string_view unit);
 
-/// The unit at the end of the name of a column, "N" of "Force_N" and of "Kraft/N", where it is a usual one that converts to the base
-/// unit; else empty.
+/// The unit at the end of the name of a column, "N" of "Force_N" and of "Kraft/N", where it is a usual one that
+/// converts to the base unit; else empty.
 std::string unit_in_name(const std::string& name, std::string_view base);
 
 /// "3.71 mm" → 3.71 in `base_unit`; a bare number is in the base unit. Throws InputError.

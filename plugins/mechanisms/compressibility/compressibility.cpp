@@ -194,7 +194,7 @@ MechanismFactory factory() {
   // The linearised effect of a foam, whose bulk modulus is a part of its shear modulus, is many times what is measured.
   mechanism.plausible_effect = 20;
   mechanism.look_alikes = {"force_scale_error", "force_offset"};
-  mechanism.isolated_by = "lateral stretch or volume measured in the same test, or confined compression";
+  mechanism.isolated_by = "confined compression beside free compression, or the volume measured in the same test";
   mechanism.reference = "Flory, Trans. Faraday Soc. 57:829 (1961)";
   // The defaults are those that take most of a foam's misfit. Programs of finite elements have the isochoric form.
   mechanism.options = {
