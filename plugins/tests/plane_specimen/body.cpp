@@ -13,6 +13,29 @@ namespace {
 std::array<double, 3> line(double x) { return {0.5 * x * (x - 1), 1 - x * x, 0.5 * x * (x + 1)}; }
 std::array<double, 3> slope(double x) { return {x - 0.5, -2 * x, x + 0.5}; }
 
+/// The place of local coordinates (s, t), and ∂(X, Y)/∂(s, t).
+struct Mapped {
+  std::array<double, 3> Ns, Nt, ds, dt;
+  double X = 0, Y = 0, Xs = 0, Xt = 0, Ys = 0, Yt = 0;
+
+  Mapped(const Mesh& mesh, const std::array<std::size_t, 9>& element, double s, double t)
+      : Ns(line(s)), Nt(line(t)), ds(slope(s)), dt(slope(t)) {
+    for (std::size_t a = 0; a < 9; ++a) {
+      const auto [x, y] = mesh.nodes[element[a]];
+      X += N(a) * x;
+      Y += N(a) * y;
+      Xs += by_s(a) * x;
+      Ys += by_s(a) * y;
+      Xt += by_t(a) * x;
+      Yt += by_t(a) * y;
+    }
+  }
+  [[nodiscard]] double N(std::size_t a) const { return Ns[a % 3] * Nt[a / 3]; }
+  [[nodiscard]] double by_s(std::size_t a) const { return ds[a % 3] * Nt[a / 3]; }
+  [[nodiscard]] double by_t(std::size_t a) const { return Ns[a % 3] * dt[a / 3]; }
+  [[nodiscard]] double det() const { return Xs * Yt - Xt * Ys; }
+};
+
 constexpr std::array<double, 3> gauss_place{-0.7745966692414833770, 0, 0.7745966692414833770};
 constexpr std::array<double, 3> gauss_weight{5.0 / 9, 8.0 / 9, 5.0 / 9};
 constexpr std::uint32_t nowhere = 0xffffffff;
@@ -22,22 +45,12 @@ constexpr std::uint32_t nowhere = 0xffffffff;
 Body::Body(const Shape& shape, const Mesh& mesh, Ends ends) : mesh_(mesh) {
   for (const auto& element : mesh_.elements)
     for (std::size_t q = 0; q < 9; ++q) {
-      const double s = gauss_place[q % 3], t = gauss_place[q / 3];
-      const auto Ns = line(s), Nt = line(t), ds = slope(s), dt = slope(t);
-      double Xs = 0, Xt = 0, Ys = 0, Yt = 0;
-      for (std::size_t a = 0; a < 9; ++a) {
-        const auto [X, Y] = mesh_.nodes[element[a]];
-        Xs += ds[a % 3] * Nt[a / 3] * X;
-        Ys += ds[a % 3] * Nt[a / 3] * Y;
-        Xt += Ns[a % 3] * dt[a / 3] * X;
-        Yt += Ns[a % 3] * dt[a / 3] * Y;
-      }
-      const double det = Xs * Yt - Xt * Ys;
+      const Mapped at(mesh_, element, gauss_place[q % 3], gauss_place[q / 3]);
+      const double det = at.det();
       Gauss point{};
       for (std::size_t a = 0; a < 9; ++a) {
-        const double by_s = ds[a % 3] * Nt[a / 3], by_t = Ns[a % 3] * dt[a / 3];
-        point.x[a] = (by_s * Yt - by_t * Ys) / det;
-        point.y[a] = (by_t * Xs - by_s * Xt) / det;
+        point.x[a] = (at.by_s(a) * at.Yt - at.by_t(a) * at.Ys) / det;
+        point.y[a] = (at.by_t(a) * at.Xs - at.by_s(a) * at.Xt) / det;
       }
       point.weight = std::abs(det) * gauss_weight[q % 3] * gauss_weight[q / 3];
       gauss_.push_back(point);
@@ -111,28 +124,18 @@ Reading Body::displacement(Vector point, std::size_t component) const {
   for (const auto& element : mesh_.elements) {
     double s = 0, t = 0;
     for (int iteration = 0; iteration < 30; ++iteration) {
-      const auto Ns = line(s), Nt = line(t), ds = slope(s), dt = slope(t);
-      double X = -point[0], Y = -point[1], Xs = 0, Xt = 0, Ys = 0, Yt = 0;
-      for (std::size_t a = 0; a < 9; ++a) {
-        const auto [x, y] = mesh_.nodes[element[a]];
-        X += Ns[a % 3] * Nt[a / 3] * x;
-        Y += Ns[a % 3] * Nt[a / 3] * y;
-        Xs += ds[a % 3] * Nt[a / 3] * x;
-        Ys += ds[a % 3] * Nt[a / 3] * y;
-        Xt += Ns[a % 3] * dt[a / 3] * x;
-        Yt += Ns[a % 3] * dt[a / 3] * y;
-      }
-      const double det = Xs * Yt - Xt * Ys;
-      const double step_s = -(X * Yt - Y * Xt) / det, step_t = -(Y * Xs - X * Ys) / det;
+      const Mapped at(mesh_, element, s, t);
+      const double X = at.X - point[0], Y = at.Y - point[1];
+      const double step_s = -(X * at.Yt - Y * at.Xt) / at.det(), step_t = -(Y * at.Xs - X * at.Ys) / at.det();
       s += std::clamp(step_s, -1.0, 1.0);
       t += std::clamp(step_t, -1.0, 1.0);
       if (std::abs(s) > 3 || std::abs(t) > 3) break;
       if (std::abs(step_s) + std::abs(step_t) > 1e-12) continue;
       if (std::abs(s) > 1 + 1e-9 || std::abs(t) > 1 + 1e-9) break;
-      const auto at_s = line(s), at_t = line(t);
+      const Mapped found(mesh_, element, s, t);
       Reading reading;
       for (std::size_t a = 0; a < 9; ++a)
-        if (const double weight = at_s[a % 3] * at_t[a / 3]; std::abs(weight) > 1e-14)
+        if (const double weight = found.N(a); std::abs(weight) > 1e-14)
           reading.emplace_back(2 * element[a] + component, sign * weight);
       return reading;
     }
