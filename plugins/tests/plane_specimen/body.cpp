@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Core>
-
 namespace tunica::plane {
 namespace {
 
@@ -38,7 +36,6 @@ struct Mapped {
 
 constexpr std::array<double, 3> gauss_place{-0.7745966692414833770, 0, 0.7745966692414833770};
 constexpr std::array<double, 3> gauss_weight{5.0 / 9, 8.0 / 9, 5.0 / 9};
-constexpr std::uint32_t nowhere = 0xffffffff;
 
 }  // namespace
 
@@ -47,16 +44,17 @@ Body::Body(const Shape& shape, const Mesh& mesh, Ends ends) : mesh_(mesh) {
     for (std::size_t q = 0; q < 9; ++q) {
       const Mapped at(mesh_, element, gauss_place[q % 3], gauss_place[q / 3]);
       const double det = at.det();
-      Gauss point{};
+      Elements<9, 9>::Gauss point{};
       for (std::size_t a = 0; a < 9; ++a) {
         point.x[a] = (at.by_s(a) * at.Yt - at.by_t(a) * at.Ys) / det;
         point.y[a] = (at.by_t(a) * at.Xs - at.by_s(a) * at.Xt) / det;
       }
       point.weight = std::abs(det) * gauss_weight[q % 3] * gauss_weight[q / 3];
-      gauss_.push_back(point);
+      elements_.gauss.push_back(point);
     }
+  elements_.nodes = mesh_.elements;
   hold(shape, ends);
-  make_pattern();
+  pattern_ = elements_.pattern(unknown_, none, unknowns());
 }
 
 /// The grips at x = ±length/2 move apart by the pull; planes of symmetry are held.
@@ -81,38 +79,6 @@ void Body::hold(const Shape& shape, Ends ends) {
       unknown_[dof] = free_.size();
       free_.push_back(dof);
     }
-}
-
-void Body::make_pattern() {
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto dof_of = [](const std::array<std::size_t, 9>& element, std::size_t k) {
-    return 2 * element[k / 2] + k % 2;
-  };
-  for (const auto& element : mesh_.elements)
-    for (std::size_t k = 0; k < 18; ++k)
-      for (std::size_t l = 0; l <= k; ++l) {
-        const std::size_t i = unknown_[dof_of(element, k)], j = unknown_[dof_of(element, l)];
-        if (i != none && j != none)
-          entries.emplace_back(static_cast<int>(std::max(i, j)), static_cast<int>(std::min(i, j)), 1.0);
-      }
-  const auto size = static_cast<Eigen::Index>(unknowns());
-  pattern_.resize(size, size);
-  pattern_.setFromTriplets(entries.begin(), entries.end());
-  pattern_.makeCompressed();
-  for (const auto& element : mesh_.elements) {
-    std::array<std::uint32_t, 171> place;
-    std::size_t at = 0;
-    for (std::size_t k = 0; k < 18; ++k)
-      for (std::size_t l = 0; l <= k; ++l, ++at) {
-        const std::size_t i = unknown_[dof_of(element, k)], j = unknown_[dof_of(element, l)];
-        place[at] = i == none || j == none
-                        ? nowhere
-                        : static_cast<std::uint32_t>(
-                              &pattern_.coeffRef(static_cast<int>(std::max(i, j)), static_cast<int>(std::min(i, j))) -
-                              pattern_.valuePtr());
-      }
-    places_.push_back(place);
-  }
 }
 
 Reading Body::displacement(Vector point, std::size_t component) const {
@@ -141,100 +107,6 @@ Reading Body::displacement(Vector point, std::size_t component) const {
     }
   }
   return {};
-}
-
-void Body::strain(std::span<const double> u, std::vector<std::array<double, 4>>& F, Membrane& membrane) const {
-  const std::size_t n = points();
-  F.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto& element = mesh_.elements[i / 9];
-    const Gauss& g = gauss_[i];
-    double xx = 1, xy = 0, yx = 0, yy = 1;  // F_iJ = δ_iJ + Σ u_i ∂N/∂X_J
-    for (std::size_t a = 0; a < 9; ++a) {
-      const double ux = u[2 * element[a]], uy = u[2 * element[a] + 1];
-      xx += ux * g.x[a];
-      xy += ux * g.y[a];
-      yx += uy * g.x[a];
-      yy += uy * g.y[a];
-    }
-    F[i] = {xx, xy, yx, yy};
-    membrane.C[i] = xx * xx + yx * yx;
-    membrane.C[n + i] = xy * xy + yy * yy;
-    membrane.C[2 * n + i] = xx * xy + yx * yy;
-  }
-}
-
-void Body::forces(const std::vector<std::array<double, 4>>& F, std::span<const double> stress,
-                  std::vector<double>& f) const {
-  const std::size_t n = points();
-  f.assign(dofs(), 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto& element = mesh_.elements[i / 9];
-    const Gauss& g = gauss_[i];
-    const auto [xx, xy, yx, yy] = F[i];
-    const double S0 = g.weight * stress[i], S1 = g.weight * stress[n + i], S2 = g.weight * stress[2 * n + i];
-    // P = F S
-    const double Pxx = xx * S0 + xy * S2, Pxy = xx * S2 + xy * S1, Pyx = yx * S0 + yy * S2, Pyy = yx * S2 + yy * S1;
-    for (std::size_t a = 0; a < 9; ++a) {
-      f[2 * element[a]] += Pxx * g.x[a] + Pxy * g.y[a];
-      f[2 * element[a] + 1] += Pyx * g.x[a] + Pyy * g.y[a];
-    }
-  }
-}
-
-void Body::stiffness(const std::vector<std::array<double, 4>>& F, const Membrane& membrane,
-                     Eigen::SparseMatrix<double>& K, std::vector<double>& by_pull) const {
-  using Strain = Eigen::Matrix<double, 3, 18>;
-  const std::size_t n = points();
-  double* const values = K.valuePtr();
-  std::fill(values, values + K.nonZeros(), 0.0);
-  by_pull.assign(dofs(), 0);
-  Eigen::Matrix<double, 18, 18> element_K;
-  for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
-    const auto& element = mesh_.elements[e];
-    element_K.setZero();
-    for (std::size_t q = 0; q < 9; ++q) {
-      const std::size_t i = 9 * e + q;
-      const Gauss& g = gauss_[i];
-      const auto [xx, xy, yx, yy] = F[i];
-      Strain B;
-      for (Eigen::Index a = 0; a < 9; ++a) {
-        const double x = g.x[static_cast<std::size_t>(a)], y = g.y[static_cast<std::size_t>(a)];
-        B(0, 2 * a) = xx * x;
-        B(0, 2 * a + 1) = yx * x;
-        B(1, 2 * a) = xy * y;
-        B(1, 2 * a + 1) = yy * y;
-        B(2, 2 * a) = xx * y + xy * x;
-        B(2, 2 * a + 1) = yx * y + yy * x;
-      }
-      Eigen::Matrix3d D;
-      for (Eigen::Index a = 0; a < 3; ++a)
-        for (Eigen::Index b = 0; b < 3; ++b)
-          D(a, b) = g.weight * membrane.tangent[static_cast<std::size_t>(3 * a + b) * n + i];
-      element_K.noalias() += B.transpose() * (D * B);
-      const double S0 = g.weight * membrane.stress[i], S1 = g.weight * membrane.stress[n + i],
-                   S2 = g.weight * membrane.stress[2 * n + i];
-      for (std::size_t a = 0; a < 9; ++a) {
-        const double x = S0 * g.x[a] + S2 * g.y[a], y = S2 * g.x[a] + S1 * g.y[a];
-        for (std::size_t b = 0; b <= a; ++b) {
-          const double geometric = x * g.x[b] + y * g.y[b];
-          element_K(static_cast<Eigen::Index>(2 * a), static_cast<Eigen::Index>(2 * b)) += geometric;
-          element_K(static_cast<Eigen::Index>(2 * a + 1), static_cast<Eigen::Index>(2 * b + 1)) += geometric;
-        }
-      }
-    }
-    std::size_t at = 0;
-    for (std::size_t k = 0; k < 18; ++k) {
-      const std::size_t row = 2 * element[k / 2] + k % 2;
-      for (std::size_t l = 0; l <= k; ++l, ++at) {
-        const double value = element_K(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l));
-        if (places_[e][at] != nowhere) values[places_[e][at]] += value;
-        const std::size_t column = 2 * element[l / 2] + l % 2;
-        by_pull[row] += value * grips_[column];
-        if (l != k) by_pull[column] += value * grips_[row];
-      }
-    }
-  }
 }
 
 }  // namespace tunica::plane

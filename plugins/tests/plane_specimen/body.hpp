@@ -9,7 +9,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
-#include "membrane.hpp"
+#include "../plane_elements/elements.hpp"
 #include "shape.hpp"
 
 namespace tunica::plane {
@@ -40,32 +40,31 @@ class Body {
   [[nodiscard]] Reading displacement(Vector point, std::size_t component) const;
 
   /// F, and C̄ for the membrane, at every Gauss point.
-  void strain(std::span<const double> u, std::vector<std::array<double, 4>>& F, Membrane& membrane) const;
-  /// f_int = Σ w Bᵀ S of the membrane's stress, or of one of its derivatives by parameters: 3n entries.
-  void forces(const std::vector<std::array<double, 4>>& F, std::span<const double> stress,
-              std::vector<double>& f) const;
+  void strain(std::span<const double> u, std::vector<Gradient>& F, Membrane& membrane) const {
+    elements_.strain(u, F, membrane);
+  }
+  /// Nodal forces of the membrane's stress, or of one of its derivatives by parameters: 3n entries.
+  void forces(const std::vector<Gradient>& F, std::span<const double> stress, std::vector<double>& f) const {
+    f.assign(dofs(), 0);
+    elements_.add_forces(F, stress, f);
+  }
   /// The stiffness over the free displacements, and its columns times the grips: ∂f/∂pull.
-  void stiffness(const std::vector<std::array<double, 4>>& F, const Membrane& membrane, Eigen::SparseMatrix<double>& K,
-                 std::vector<double>& by_pull) const;
+  void stiffness(const std::vector<Gradient>& F, const Membrane& membrane, Eigen::SparseMatrix<double>& K,
+                 std::vector<double>& by_pull) const {
+    elements_.stiffness(F, membrane, grips_, K, by_pull);
+  }
   /// A matrix with the pattern of stiffness().
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
 
  private:
-  struct Gauss {
-    std::array<double, 9> x, y;  ///< ∂N/∂X, ∂N/∂Y
-    double weight;               ///< with det J
-  };
   void hold(const Shape& shape, Ends ends);
-  void make_pattern();
 
   Mesh mesh_;
-  std::vector<Gauss> gauss_;          ///< nine an element
+  Elements<9, 9> elements_;
   std::vector<double> grips_;         ///< by dof
   std::vector<std::size_t> free_;     ///< dofs that are unknown
   std::vector<std::size_t> unknown_;  ///< by dof; none where it is prescribed
   Eigen::SparseMatrix<double> pattern_;
-  std::vector<std::array<std::uint32_t, 171>>
-      places_;  ///< of each element's lower triangle in pattern_; 0xffffffff none
 };
 
 }  // namespace tunica::plane

@@ -176,7 +176,7 @@ class PlaneSpecimen final : public Test {
     std::vector<std::array<double, 2>> states;
     for (const double x : {*least, *largest, 1 + 0.5 * (*largest - 1), 1 + 1.5 * (*largest - 1), 0.97, 1.08})
       for (const double power : {0.0, 0.5, 1.0}) states.push_back({x, std::pow(x, -power)});
-    Membrane membrane(input.model, input.model_parameters, along_, changing);
+    Membrane membrane(input.model, input.model_parameters, along_, changing ? Faces::free : Faces::incompressible);
     const std::size_t n = states.size();
     membrane.resize(n);
     for (std::size_t i = 0; i < n; ++i)

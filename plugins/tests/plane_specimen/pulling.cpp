@@ -8,7 +8,10 @@ namespace tunica::plane {
 
 Pulling::Pulling(const Body& body, const Model& model, std::span<const double> parameters, std::array<double, 2> along,
                  bool compressible)
-    : body_(body), membrane_(model, parameters, along, compressible), u_(body.dofs(), 0.0), K_(body.pattern()) {
+    : body_(body),
+      membrane_(model, parameters, along, compressible ? Faces::free : Faces::incompressible),
+      u_(body.dofs(), 0.0),
+      K_(body.pattern()) {
   membrane_.resize(body.points());
 }
 

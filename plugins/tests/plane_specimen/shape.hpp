@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace tunica::plane {
+#include "../plane_elements/elements.hpp"
 
-using Vector = std::array<double, 2>;  ///< x along the pull, y across it
+namespace tunica::plane {
 
 /// The outline of a specimen between its grips, symmetric about both axes; its centre is the origin. Lengths in mm.
 struct Shape {

@@ -13,9 +13,8 @@ constexpr std::size_t rr = 2;
 
 }  // namespace
 
-Membrane::Membrane(const Model& model, std::span<const double> parameters, std::array<double, 2> along,
-                   bool compressible)
-    : model_(model), parameters_(parameters), compressible_(compressible) {
+Membrane::Membrane(const Model& model, std::span<const double> parameters, std::array<double, 2> along, Faces faces)
+    : model_(model), parameters_(parameters), faces_(faces) {
   const auto [t, z] = along;
   dyad_ = {{{t * t, z * z, t * z}, {z * z, t * t, -t * z}, {-t * z, t * z, 0.5 * (t * t - z * z)}}};
 }
@@ -67,18 +66,20 @@ bool Membrane::free_the_faces() {
 
 bool Membrane::evaluate(bool with_tangent, bool with_parameters) {
   const std::size_t n = n_, count = parameters_.size();
+  with_tangent = with_tangent || (with_parameters && faces_ == Faces::free);
   if (with_parameters) {
     S6_dp_.resize(6 * count * n);
     stress_dp.resize(3 * count * n);
   }
-  if (compressible_ && !free_the_faces()) return false;
-  if (!compressible_)
+  const bool incompressible = faces_ == Faces::incompressible, free = faces_ == Faces::free;
+  if (free && !free_the_faces()) return false;
+  if (incompressible)
     for (std::size_t i = 0; i < n; ++i) {
       const double det = C[i] * C[n + i] - C[2 * n + i] * C[2 * n + i];
       if (!(det > 0)) return false;
       normal[i] = 1 / det;
     }
-  if (!respond(with_tangent || compressible_, with_parameters)) return false;
+  if (!respond(with_tangent || free, with_parameters)) return false;
   for (std::size_t i = 0; i < n; ++i) {
     const double xx = C[i], yy = C[n + i], xy = C[2 * n + i], u = normal[i];
     const double det = xx * yy - xy * xy;
@@ -90,7 +91,7 @@ bool Membrane::evaluate(bool with_tangent, bool with_parameters) {
       return sum;
     };
     for (std::size_t a = 0; a < 3; ++a) {
-      const double s = turned(S6_, 0, a) - (compressible_ ? 0 : u * S_rr * G[a]);
+      const double s = turned(S6_, 0, a) - (incompressible ? u * S_rr * G[a] : 0);
       if (!std::isfinite(s)) return false;
       stress[a * n + i] = s;
     }
@@ -107,9 +108,8 @@ bool Membrane::evaluate(bool with_tangent, bool with_parameters) {
         for (std::size_t b = a; b < 3; ++b) {
           double A = 0;
           for (std::size_t c = 0; c < 3; ++c) A += twice[c] * dyad_[a][c] * turned(A6_, 6 * in_plane[c], b);
-          if (compressible_)
-            A -= A_rr[a] * A_rr[b] / A_rrrr;
-          else
+          if (free) A -= A_rr[a] * A_rr[b] / A_rrrr;
+          if (incompressible)
             A += -u * (A_rr[a] * G[b] + G[a] * A_rr[b]) + u * u * A_rrrr * G[a] * G[b] +
                  2 * u * S_rr * (G[a] * G[b] + GG[a][b]);
           tangent[(3 * a + b) * n + i] = tangent[(3 * b + a) * n + i] = A;
@@ -118,8 +118,9 @@ bool Membrane::evaluate(bool with_tangent, bool with_parameters) {
     for (std::size_t j = 0; with_parameters && j < count; ++j) {
       const double by_rr = S6_dp_[(6 * j + rr) * n + i];
       for (std::size_t a = 0; a < 3; ++a)
-        stress_dp[(3 * j + a) * n + i] =
-            turned(S6_dp_, 6 * j, a) - (compressible_ ? A_rr[a] * by_rr / A_rrrr : u * by_rr * G[a]);
+        stress_dp[(3 * j + a) * n + i] = turned(S6_dp_, 6 * j, a) - (free             ? A_rr[a] * by_rr / A_rrrr
+                                                                     : incompressible ? u * by_rr * G[a]
+                                                                                      : 0);
     }
   }
   return true;
