@@ -212,6 +212,7 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
     TestSetup setup{entry.options, composed.dataset.rows(), entry.data.stress_measure};
     override_options(setup.options, on_shelf.factory.options, mechanisms);
     for (const experiment::LayerEntry& one : entry.layers) setup.layers.push_back(one.thickness);
+    for (const data::Channel& channel : composed.dataset.channels) setup.measured.emplace_back(channel.values);
     setup.folder = entry.folder.string();
     if (model != nullptr) setup.card = card_writer(*model);
     setup.unit_factor = [](std::string_view from, std::string_view to) { return data::convert(1, from, to); };

@@ -15,6 +15,7 @@
 #include "data/quantities.hpp"
 #include "data/record.hpp"
 #include "data/series.hpp"
+#include "data/stacking.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::data {
@@ -126,16 +127,36 @@ static Dataset given_dataset(const DataRequest& request) {
   return dataset;
 }
 
+static Dataset read_table(const DataRequest& request, const std::vector<Observable>& observables);
+
 Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& observables) {
   if (request.given) return given_dataset(request);
+  if (request.tables.empty()) return read_table(request, observables);
+  std::vector<Dataset> tables;
+  for (const DataRequest& table : request.tables) tables.push_back(read_table(table, observables));
+  Dataset dataset = stacked(tables);
+  std::erase_if(dataset.channels, [&](const Channel& channel) {
+    return std::ranges::none_of(request.columns,
+                                [&](const auto& column) { return column.first == channel.observable; });
+  });
+  for (Channel& channel : dataset.channels) {
+    channel.noise.reset();
+    for (const auto& [name, noise] : request.noise)
+      if (name == channel.observable) channel.noise = noise;
+  }
+  if (request.sorted) sort_rows(dataset);
+  return dataset;
+}
+
+static Dataset read_table(const DataRequest& request, const std::vector<Observable>& observables) {
   check_request(request, observables);
   Dataset dataset;
   std::vector<Series> replicates;
   for (const std::filesystem::path& file : request.files) {
     replicates.push_back(read_series(file, request, observables, dataset.warnings));
     check_series(replicates.back(), dataset.warnings);
-    look_at_record(replicates.back(), request, dataset.findings);
-    if (auto warning = cycles_as_one_curve(replicates.back(), request))
+    if (!request.part) look_at_record(replicates.back(), request, dataset.findings);
+    if (auto warning = request.part ? std::nullopt : cycles_as_one_curve(replicates.back(), request))
       dataset.warnings.insert(dataset.warnings.begin(), *std::move(warning));
     dataset.sha256.push_back(replicates.back().sha256);
   }
@@ -169,7 +190,7 @@ Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& 
       if (name == observable.name) channel.noise = noise;
     dataset.channels.push_back(std::move(channel));
   }
-  if (dataset.channels.empty())
+  if (dataset.channels.empty() && !request.part)
     for (const Observable* const predicted : predicted_channels(request, observables)) {
       const std::vector<double> nothing(dataset.count, std::numeric_limits<double>::quiet_NaN());
       dataset.channels.push_back({predicted->name, predicted->unit, nothing, {}, {}});

@@ -67,6 +67,11 @@ struct DataRequest {
   /// Rows in memory, which are taken in place of those of the files; empty = those of the files. Their noise and their
   /// order are still those of the request.
   std::shared_ptr<const Dataset> given = {};
+  /// Of data in several tables ("data": [ … ]): each of them. Their rows follow one another, and what a table does not
+  /// map was not measured there. `files`, `columns` and `noise` are then those of all tables; a channel or a noise that
+  /// is taken out or changed here counts.
+  std::vector<DataRequest> tables = {};
+  bool part = false;  ///< this is one of several tables
 };
 
 /// One fitted channel: the measured values and what is known of their noise.

@@ -175,8 +175,54 @@ void refuse_idle_keys(const Node& block, const std::vector<Observable>& observab
 
 }  // namespace
 
+static data::DataRequest read_table(const Node& block, const std::vector<Observable>& observables,
+                                    std::string_view owner, const std::filesystem::path& folder);
+
+/// Several tables, whose rows follow one another.
+static data::DataRequest read_tables(const Node& list, const std::vector<Observable>& observables,
+                                     std::string_view owner, const std::filesystem::path& folder) {
+  data::DataRequest all;
+  for (const Node& block : list.elements("")) {
+    data::DataRequest table = read_table(block, observables, owner, folder);
+    if (table.files.size() > 1)
+      block.child_or_self("files").fail("replicates are given in one of several tables",
+                                        "Give each table one \"file\", or make each replicate a test of its own.");
+    table.part = true;
+    if (all.tables.empty()) all.stress_measure = table.stress_measure;
+    if (table.stress_measure != all.stress_measure)
+      block.child_or_self("stress_measure")
+          .fail(fmt::format("the tables of {} state two stress measures", owner), "Give the same one in all of them.");
+    all.files.push_back(table.files.front());
+    for (const auto& column : table.columns)
+      if (std::ranges::find(all.columns, column.first, [](const auto& one) { return one.first; }) == all.columns.end())
+        all.columns.push_back(column);
+    for (const auto& [name, noise] : table.noise) {
+      const auto same = std::ranges::find(all.noise, name, [](const auto& one) { return one.first; });
+      if (same == all.noise.end())
+        all.noise.emplace_back(name, noise);
+      else if (same->second.absolute != noise.absolute || same->second.relative != noise.relative ||
+               same->second.correlation != noise.correlation)
+        block.child_or_self("noise").fail(fmt::format("two tables of {} state another noise of '{}'", owner, name),
+                                          "Give the same in both.");
+    }
+    all.tables.push_back(std::move(table));
+  }
+  if (all.tables.empty())
+    list.fail(fmt::format("the list of tables of {} is empty", owner), "Give at least one, {\"file\": …}.");
+  const bool ordered = std::ranges::all_of(
+      all.tables, [](const data::DataRequest& table) { return table.order == data::Order::loading; });
+  if (ordered) all.order = data::Order::loading;
+  return all;
+}
+
 data::DataRequest read_data(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
                             const std::filesystem::path& folder) {
+  return block.is_array() ? read_tables(block, observables, owner, folder)
+                          : read_table(block, observables, owner, folder);
+}
+
+static data::DataRequest read_table(const Node& block, const std::vector<Observable>& observables,
+                                    std::string_view owner, const std::filesystem::path& folder) {
   std::vector<std::string> keys = {"file",  "files", "columns",   "stress_measure", "rows",
                                    "where", "order", "time_from", "noise"};
   keys.insert(keys.end(), rig_keys().begin(), rig_keys().end());

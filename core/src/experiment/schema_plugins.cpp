@@ -165,7 +165,13 @@ void define_plugins(Json& definitions, const plugins::Catalogue& catalogue) {
     }
     Json properties = with_options(type, factory.options);
     if (factory.layered) properties["layers"] = layers_schema();
-    properties["data"] = data_schema(factory);
+    definitions["data_" + type] = data_schema(factory);
+    properties["data"] = {{"description", "The measured data: one table, or several whose rows follow one another."},
+                          {"anyOf", Json::array({reference("data_" + type),
+                                                 {{"type", "array"},
+                                                  {"items", reference("data_" + type)},
+                                                  {"minItems", 1},
+                                                  {"maxItems", limits::entries}}})}};
     for (const char* name : {"weight", "hold_out"}) properties[name] = reference(name);
     properties["parameters"] = parameters_schema(factory.parameters);
     properties["mechanisms"] = mechanism_list(applicable);

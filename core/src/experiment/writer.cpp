@@ -120,6 +120,23 @@ Json to_json(const data::DataRequest& data) {
   return json;
 }
 
+/// The tables as they were read, with what was since taken out of the whole or changed in it.
+Json tables_to_json(const data::DataRequest& data) {
+  Json list = Json::array();
+  for (data::DataRequest table : data.tables) {
+    const auto among = [](const auto& list, const std::string& name) {
+      return std::ranges::find(list, name, [](const auto& one) { return one.first; });
+    };
+    std::erase_if(table.columns,
+                  [&](const auto& column) { return among(data.columns, column.first) == data.columns.end(); });
+    table.noise.clear();
+    for (const auto& [name, noise] : data.noise)
+      if (among(table.columns, name) != table.columns.end()) table.noise.emplace_back(name, noise);
+    list.push_back(to_json(table));
+  }
+  return list;
+}
+
 Json to_json(const Stop& stop) {
   Json json = Json::object();
   if (stop.max_evaluations != no_own_limit) json["max_evaluations"] = stop.max_evaluations;
@@ -156,13 +173,17 @@ class Writer {
 
   /// A measure of stress stands only where there is a stress: without one the reader refuses it.
   [[nodiscard]] Json data(const TestEntry& entry) const {
-    Json json = to_json(entry.data);
+    Json json = entry.data.tables.empty() ? to_json(entry.data) : tables_to_json(entry.data);
     const auto& observables = catalogue_.tests().find(entry.type)->second.factory.observables;
     const bool stress = std::any_of(entry.data.columns.begin(), entry.data.columns.end(), [&](const auto& column) {
       const auto quantity = data::quantity_named(column.first, observables);
       return quantity && quantity->observable->kind == Observable::Kind::stress;
     });
-    if (entry.measured && !stress) json.erase("stress_measure");
+    if (entry.measured && !stress) {
+      if (json.is_object()) json.erase("stress_measure");
+      for (Json& table : json)
+        if (table.is_object() && json.is_array()) table.erase("stress_measure");
+    }
     return json;
   }
 

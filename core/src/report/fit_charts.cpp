@@ -225,6 +225,7 @@ void add_fits(Page& page, const Folder& folder, const Order& order) {
       add_quality(page, order);
     }
     const std::string test = file.substr(4, file.size() - 8);
+    if (add_field(page, folder, order, *table, test)) continue;
     std::vector<std::size_t> prescribed;
     for (std::size_t k = 2; k < table->columns().size(); ++k)
       if (const auto predicted = table->find(table->columns()[k].name + ".predicted")) {

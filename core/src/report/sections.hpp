@@ -17,6 +17,8 @@ void add_ranking(Page& page, const Folder& folder, const Order& order);
 void add_fits(Page& page, const Folder& folder, const Order& order);
 /// Of runs and of simulations.
 void add_walls(Page& page, const Folder& folder);
+/// Maps of a test whose rows are points of a measured field; false where the table is none.
+bool add_field(Page& page, const Folder& folder, const Order& order, const Table& table, const std::string& test);
 void add_searches(Page& page, const Folder& folder, const Order& order);
 void add_parameters(Page& page, const Folder& folder, const Order& order);
 void add_stability(Page& page, const Folder& folder, const Order& order);

@@ -75,6 +75,42 @@ struct Elements {
     }
   }
 
+  /// Adds ∂f_int/∂u v of a change v of all displacements: from δP = δF S + F δS.
+  void add_force_change(const std::vector<Gradient>& F, const Membrane& membrane, std::span<const double> v,
+                        std::vector<double>& f) const {
+    const std::size_t n = points();
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto& element = nodes[i / Q];
+      const Gauss& g = gauss[i];
+      const auto [xx, xy, yx, yy] = F[i];
+      double dxx = 0, dxy = 0, dyx = 0, dyy = 0;  // δF
+      for (std::size_t a = 0; a < N; ++a) {
+        const double vx = v[2 * element[a]], vy = v[2 * element[a] + 1];
+        dxx += vx * g.x[a];
+        dxy += vx * g.y[a];
+        dyx += vy * g.x[a];
+        dyy += vy * g.y[a];
+      }
+      // B v = (FᵀδF)_xx, (FᵀδF)_yy, (FᵀδF)_xy + (FᵀδF)_yx
+      const std::array<double, 3> strain{xx * dxx + yx * dyx, xy * dxy + yy * dyy,
+                                         xx * dxy + yx * dyy + xy * dxx + yy * dyx};
+      std::array<double, 3> dS{}, S{};
+      for (std::size_t a = 0; a < 3; ++a) {
+        S[a] = g.weight * membrane.stress[a * n + i];
+        for (std::size_t b = 0; b < 3; ++b) dS[a] += g.weight * membrane.tangent[(3 * a + b) * n + i] * strain[b];
+      }
+      // δP = δF S + F δS
+      const double Pxx = dxx * S[0] + dxy * S[2] + xx * dS[0] + xy * dS[2];
+      const double Pxy = dxx * S[2] + dxy * S[1] + xx * dS[2] + xy * dS[1];
+      const double Pyx = dyx * S[0] + dyy * S[2] + yx * dS[0] + yy * dS[2];
+      const double Pyy = dyx * S[2] + dyy * S[1] + yx * dS[2] + yy * dS[1];
+      for (std::size_t a = 0; a < N; ++a) {
+        f[2 * element[a]] += Pxx * g.x[a] + Pxy * g.y[a];
+        f[2 * element[a] + 1] += Pyx * g.x[a] + Pyy * g.y[a];
+      }
+    }
+  }
+
   /// Lower triangle of the stiffness over the unknowns, with `places`. `unknown` is by dof, `none` where prescribed.
   Eigen::SparseMatrix<double> pattern(const std::vector<std::size_t>& unknown, std::size_t none, std::size_t size) {
     std::vector<Eigen::Triplet<double>> found;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "specimen.hpp"
+
+namespace tunica::field {
+
+/// What is known of one displacement component on one side.
+enum class Edge {
+  free,     ///< no traction
+  fixed,    ///< 0
+  uniform,  ///< measured, the same all along: a rigid grip that does not turn
+  measured  ///< measured, smooth along the side
+};
+
+/// Conditions by side and component.
+using Edges = std::array<std::array<Edge, 2>, 4>;
+
+/// Points of one step with their displacements, mm.
+struct Frame {
+  std::vector<Vector> points;
+  std::array<std::vector<double>, 2> displacements;  ///< by component, NaN where not measured
+};
+
+/// The prescribed displacements of one step, by dof; 0 where nothing is prescribed.
+///
+/// On a measured side they follow from the points within 2.5 spacings of it, by least squares on
+///
+///     u(s, d) = Σ_{k ≤ degree} a_k P_k(s) + d Σ_{k ≤ 2} b_k P_k(s) + c d²
+///
+/// with Legendre polynomials P_k of the place s along the side, −1 to 1, and the distance d from it: never beyond what
+/// was measured. Throws InputError where a side has too few points near.
+std::vector<double> prescribed(const Specimen& specimen, const Edges& edges, const Frame& frame, std::size_t degree);
+
+}  // namespace tunica::field

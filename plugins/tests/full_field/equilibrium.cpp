@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tunica::field {
+
+Equilibrium::Equilibrium(const Specimen& specimen, const Model& model, std::span<const double> parameters,
+                         std::array<double, 2> along, plane::Faces faces)
+    : specimen_(specimen),
+      membrane_(model, parameters, along, faces),
+      u_(specimen.dofs(), 0.0),
+      K_(specimen.pattern()) {
+  membrane_.resize(specimen.elements().points());
+}
+
+bool Equilibrium::evaluate(bool with_tangent, bool with_parameters) {
+  specimen_.elements().strain(u_, F_, membrane_);
+  for (const auto& F : F_)
+    if (!(F[0] * F[3] - F[1] * F[2] > 0)) return false;
+  if (!membrane_.evaluate(with_tangent, with_parameters)) return false;
+  f_.assign(specimen_.dofs(), 0);
+  specimen_.elements().add_forces(F_, membrane_.stress, f_);
+  return std::all_of(f_.begin(), f_.end(), [](double x) { return std::isfinite(x); });
+}
+
+bool Equilibrium::factor(const std::vector<double>& direction) {
+  specimen_.elements().stiffness(F_, membrane_, direction, K_, by_direction_);
+  if (!analysed_) factor_.analyzePattern(K_);
+  analysed_ = true;
+  factor_.factorize(K_);
+  return factor_.info() == Eigen::Success;
+}
+
+Eigen::VectorXd Equilibrium::solve(const std::vector<double>& of_dofs) const {
+  const auto& free = specimen_.free();
+  Eigen::VectorXd right(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t k = 0; k < free.size(); ++k) right[static_cast<Eigen::Index>(k)] = of_dofs[free[k]];
+  return factor_.solve(right);
+}
+
+/// K du = −f − ∂f/∂u_held direction. The first step moves the held displacements, the others leave them. Where steps
+/// are small, one factor serves several, as long as each is a tenth of the one before.
+bool Equilibrium::newton(std::vector<double> direction) {
+  const auto& free = specimen_.free();
+  bool reuse = false;
+  double before = 1e300, size = 0;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    if (!evaluate(!reuse, false) || (!reuse && !factor(direction))) return false;
+    std::vector<double> right = f_;
+    if (iteration == 0)
+      for (std::size_t dof = 0; dof < right.size(); ++dof) right[dof] += by_direction_[dof];
+    const Eigen::VectorXd du = -solve(right);
+    const double largest = du.size() > 0 ? du.lpNorm<Eigen::Infinity>() : 0;
+    if (!std::isfinite(largest)) return false;
+    for (std::size_t k = 0; k < free.size(); ++k) u_[free[k]] += du[static_cast<Eigen::Index>(k)];
+    if (iteration == 0) {
+      for (std::size_t dof = 0; dof < u_.size(); ++dof) u_[dof] += direction[dof];
+      std::fill(direction.begin(), direction.end(), 0.0);
+    }
+    size = 1e-6 * std::max(specimen_.extent(0), specimen_.extent(1));
+    for (const double x : u_) size = std::max(size, std::abs(x));
+    // A step with its own factor leaves its square behind, one with an older factor a share of itself.
+    if (iteration > 0 && largest <= (reuse ? 1e-11 : 1e-7) * size) return evaluate(false, false);
+    if (iteration > 2 && largest > 2 * before) return false;
+    reuse = iteration > 0 && (reuse ? largest < 0.1 * before : largest < 0.01 * size);
+    before = largest;
+  }
+  return false;
+}
+
+std::optional<std::string> Equilibrium::move_to(const std::vector<double>& prescribed) {
+  double left = 1, step = 1;
+  for (int trial = 0; trial < 60 && step > smallest_step; ++trial) {
+    const std::vector<double> u = u_, normal = membrane_.normal;
+    const double share = std::min(1.0, step / left);
+    std::vector<double> direction(u_.size(), 0.0);
+    for (std::size_t dof = 0; dof < u_.size(); ++dof)
+      if (specimen_.held(dof)) direction[dof] = share * (prescribed[dof] - u_[dof]);
+    if (newton(std::move(direction))) {
+      if (share >= 1) return {};
+      left -= step;
+      step *= 2;
+    } else {
+      u_ = u;
+      membrane_.normal = normal;
+      step = std::min(step, left) / 3;
+    }
+  }
+  return "no equilibrium was found on the way, since the material loses its stability or the mesh is distorted; narrow "
+         "the bounds of the model's parameters";
+}
+
+bool Equilibrium::linearise() {
+  const std::vector<double> normal = membrane_.normal;
+  const bool evaluated = evaluate(true, true);
+  membrane_.normal = normal;
+  return evaluated && factor(std::vector<double>(u_.size(), 0.0));
+}
+
+void Equilibrium::by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) {
+  const std::size_t n = 3 * specimen_.elements().points();
+  df.assign(u_.size(), 0);
+  specimen_.elements().add_forces(F_, std::span(membrane_.stress_dp).subspan(j * n, n), df);
+  const Eigen::VectorXd change = -solve(df);
+  du.assign(u_.size(), 0);
+  const auto& free = specimen_.free();
+  for (std::size_t k = 0; k < free.size(); ++k) du[free[k]] = change[static_cast<Eigen::Index>(k)];
+  specimen_.elements().add_force_change(F_, membrane_, du, df);
+}
+
+}  // namespace tunica::field

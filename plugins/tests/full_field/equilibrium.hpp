@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+
+#include "../plane_elements/membrane.hpp"
+#include "specimen.hpp"
+
+namespace tunica::field {
+
+/// One specimen, its edge displacements prescribed step by step: finds the free displacements with f(u) = 0 there, by
+/// Newton's method. Not shared between threads.
+class Equilibrium {
+ public:
+  Equilibrium(const Specimen& specimen, const Model& model, std::span<const double> parameters,
+              std::array<double, 2> along, plane::Faces faces);
+
+  /// Moves to the next step: `prescribed` by dof, read where held. The way is halved where Newton's method fails. Empty
+  /// where it arrived, else what went wrong.
+  std::optional<std::string> move_to(const std::vector<double>& prescribed);
+  /// Prepares derivatives by the model's parameters at the solution. False where the stiffness has no factor.
+  bool linearise();
+
+  [[nodiscard]] const std::vector<double>& displacements() const { return u_; }
+  [[nodiscard]] const std::vector<double>& forces() const { return f_; }  ///< by dof, per thickness, kPa·mm
+  [[nodiscard]] const plane::Membrane& membrane() const { return membrane_; }
+  [[nodiscard]] const std::vector<plane::Gradient>& gradients() const { return F_; }
+  /// After linearise(): derivatives of displacements and forces by parameter j, by dof.
+  void by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df);
+
+ private:
+  using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+  static constexpr int most_iterations = 25;
+  static constexpr double smallest_step = 2e-3;  ///< of the way from step to step
+  bool evaluate(bool with_tangent, bool with_parameters);
+  bool factor(const std::vector<double>& direction);
+  bool newton(std::vector<double> direction);
+  [[nodiscard]] Eigen::VectorXd solve(const std::vector<double>& of_dofs) const;
+
+  const Specimen& specimen_;
+  plane::Membrane membrane_;
+  std::vector<double> u_, f_, by_direction_;
+  std::vector<plane::Gradient> F_;
+  Eigen::SparseMatrix<double> K_;
+  Factor factor_;
+  bool analysed_ = false;
+};
+
+}  // namespace tunica::field

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measured fields by finite elements: homogeneous states on any mesh, differences, meshes, and what is refused.
+#include <array>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data/units.hpp"
+#include "plugins/guarded.hpp"
+#include "support/loaded.hpp"
+#include "support/strip.hpp"
+
+namespace tunica::testing::full_field {
+namespace {
+
+using ::testing::HasSubstr;
+using Point = std::array<double, 2>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Points of steps with their displacements, then one row of forces a step.
+struct Measured {
+  std::vector<double> step, x, y, ux, uy;
+  std::vector<std::string> channels = {"ux", "uy", "force_left", "force_right", "force_bottom", "force_top"};
+  [[nodiscard]] std::size_t points() const { return static_cast<std::size_t>(std::count(x.begin(), x.end(), x[0])); }
+};
+
+struct Plate {
+  std::string mesh = R"({"size": 2})", shape = R"({"rectangle": [10, 6], "corner": [-3, 1]})",
+              boundary = R"({"left": "measured", "right": "measured", "bottom": "measured", "top": "measured"})",
+              state = "plane_stress";
+  double angle = 0;
+  std::int64_t smoothing = 2;
+};
+
+/// `field` gives the displacement of a point at a load from 0 to 1.
+template <class Field>
+Measured measure(const std::vector<double>& loads, const Field& field, const Point& low, const Point& high,
+                 std::size_t count = 13) {
+  Measured all;
+  for (const double load : loads)
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < count; ++j) {
+        const auto place = [&](std::size_t axis, std::size_t k) {
+          return low[axis] + (high[axis] - low[axis]) * static_cast<double>(k) / static_cast<double>(count - 1);
+        };
+        const Point at{place(0, i), place(1, j)}, u = field(at, load);
+        all.step.push_back(load);
+        all.x.push_back(at[0]);
+        all.y.push_back(at[1]);
+        all.ux.push_back(u[0]);
+        all.uy.push_back(u[1]);
+      }
+  for (const double load : loads) {
+    all.step.push_back(load);
+    for (auto* column : {&all.x, &all.y, &all.ux, &all.uy}) column->push_back(nan);
+  }
+  return all;
+}
+
+std::unique_ptr<Test> make(const Plate& of, const Measured& measured) {
+  TestSetup setup;
+  for (const auto& [name, value] : {std::pair("mesh", of.mesh), std::pair("shape", of.shape),
+                                    std::pair("boundary", of.boundary), std::pair("state", of.state)})
+    setup.options.set(name, value);
+  setup.options.set("thickness", 2.0);
+  setup.options.set("material_angle", of.angle);
+  setup.options.set("smoothing", of.smoothing);
+  setup.rows.count = measured.step.size();
+  setup.rows.abscissae = {{"step", measured.step}, {"x", measured.x}, {"y", measured.y}};
+  setup.rows.channels = measured.channels;
+  const std::vector<double> nothing(measured.step.size(), nan);
+  for (const std::string& channel : measured.channels)
+    setup.measured.emplace_back(channel == "ux" ? measured.ux : channel == "uy" ? measured.uy : nothing);
+  setup.unit_factor = [](std::string_view from, std::string_view to) { return data::convert(1, from, to); };
+  return plugins::create(catalogue().tests().at("full_field"), setup);
+}
+
+/// F = [[1 + 0.2, 0.1], [0.05, 1 − 0.08]] at the full load.
+constexpr std::array<double, 4> strain{0.2, 0.1, 0.05, -0.08};
+Point affine(const Point& at, double load) {
+  return {load * (strain[0] * at[0] + strain[1] * at[1]) + 0.3, load * (strain[2] * at[0] + strain[3] * at[1]) - 0.1};
+}
+
+const std::vector<double> wall{20, 0.1, 30, 1.2, 40}, foam{25, 6, 0.18};
+
+std::unique_ptr<Model> hyperfoam() {
+  Options options;
+  options.set("terms", std::int64_t{1});
+  options.set("poisson", std::string("shared"));
+  return make_model("hyperfoam", options);
+}
+
+/// First Piola–Kirchhoff stress of the sheet, xx and yy, by differences of the energy with free or held faces.
+template <class Energy>
+Point nominal_stress(const Energy& energy, std::array<double, 4> F) {
+  const auto slope = [&](std::size_t k) {
+    constexpr double h = 1e-5;
+    auto ahead = F, behind = F;
+    ahead[k] += h;
+    behind[k] -= h;
+    return (energy(ahead) - energy(behind)) / (2 * h);
+  };
+  return {slope(0), slope(3)};
+}
+
+double energy_of(const Model& model, const std::vector<double>& p, const std::array<double, 4>& F, double normal) {
+  const auto [xx, xy, yx, yy] = F;
+  const std::array<double, 6> C{xx * xx + yx * yx, xy * xy + yy * yy, normal, xx * xy + yx * yy, 0, 0};
+  std::array<double, 1> W{};
+  EXPECT_TRUE(model.evaluate({1, C, p, {}, {}}, {W, {}, {}, {}, {}}).ok());
+  return W[0];
+}
+
+// x is the circumferential axis at an angle of 0, so that C in x and y is C in t and z.
+TEST(FullField, AffineEdgesGiveTheHomogeneousState) {
+  const Measured measured = measure({0.5, 1}, affine, {-3, 1}, {7, 7});
+  const auto gho = make_model("gho");
+  const auto foamed = hyperfoam();
+  for (const bool held : {false, true}) {
+    const Model& model = held ? *foamed : *gho;
+    const std::vector<double>& p = held ? foam : wall;
+    Plate setup;
+    setup.state = held ? "plane_strain" : "plane_stress";
+    const auto test = make(setup, measured);
+    const std::size_t n = measured.step.size();
+    std::vector<double> values(6 * n);
+    const Status status = test->predict({model, p, {}}, {values, {}, {}, {}});
+    ASSERT_TRUE(status.ok()) << status.reason();
+    for (std::size_t i = 0; i + 2 < n; ++i) {
+      EXPECT_NEAR(values[i], measured.ux[i], 1e-9);
+      EXPECT_NEAR(values[n + i], measured.uy[i], 1e-9);
+    }
+    for (std::size_t s = 0; s < 2; ++s) {
+      const double load = measured.step[n - 2 + s];
+      const std::array<double, 4> F{1 + load * strain[0], load * strain[1], load * strain[2], 1 + load * strain[3]};
+      const auto stress = nominal_stress(
+          [&](const std::array<double, 4>& at) {
+            const double J = at[0] * at[3] - at[1] * at[2];
+            return energy_of(model, p, at, held ? 1 : 1 / (J * J));
+          },
+          F);
+      // A side of 6 mm bears the stress along x, one of 10 mm that along y; the sheet is 2 mm thick.
+      const std::array<double, 4> expected{12 * stress[0], 12 * stress[0], 20 * stress[1], 20 * stress[1]};
+      for (std::size_t side = 0; side < 4; ++side)
+        EXPECT_NEAR(values[(2 + side) * n + n - 2 + s], expected[side], 1e-6 * (1 + std::abs(expected[side])))
+            << held << side;
+    }
+  }
+}
+
+/// Not affine: a bulge on top of it, so that the inside is solved for.
+Point bulging(const Point& at, double load) {
+  Point u = affine(at, load);
+  u[0] += load * 0.1 * std::sin(0.4 * at[1]);
+  u[1] += load * 0.008 * at[0] * at[0];
+  return u;
+}
+
+TEST(FullField, DerivativesAreThoseOfDifferences) {
+  const Measured measured = measure({0.5, 1}, bulging, {-3, 1}, {7, 7}, 9);
+  struct Case {
+    std::unique_ptr<Model> model;
+    std::vector<double> p;
+    std::string state;
+    double angle;
+  };
+  std::vector<Case> cases;
+  cases.push_back({make_model("gho"), wall, "plane_stress", 0});
+  cases.push_back({make_model("gho"), wall, "plane_stress", 20});
+  cases.push_back({hyperfoam(), foam, "plane_stress", 0});
+  cases.push_back({hyperfoam(), foam, "plane_strain", 0});
+  for (const Case& one : cases) {
+    Plate setup;
+    setup.state = one.state;
+    setup.angle = one.angle;
+    setup.boundary = R"({"left": "measured", "right": "measured"})";
+    const auto test = make(setup, measured);
+    const std::size_t size = 6 * measured.step.size();
+    std::vector<double> jacobian(one.p.size() * size), values(size);
+    ASSERT_TRUE(test->predict({*one.model, one.p, {}}, {values, jacobian, {}, {}}).ok());
+    for (std::size_t j = 0; j < one.p.size(); ++j) {
+      std::vector<double> ahead(size), behind(size), p = one.p;
+      const double h = 1e-4 * (0.1 + std::abs(one.p[j]));
+      p[j] = one.p[j] + h;
+      ASSERT_TRUE(test->predict({*one.model, p, {}}, {ahead, {}, {}, {}}).ok());
+      p[j] = one.p[j] - h;
+      ASSERT_TRUE(test->predict({*one.model, p, {}}, {behind, {}, {}, {}}).ok());
+      for (std::size_t k = 0; k < 6; ++k) {
+        double scale = 1e-7, worst = 0;
+        for (std::size_t i = k * size / 6; i < (k + 1) * size / 6; ++i)
+          scale = std::max(scale, std::abs(jacobian[j * size + i]));
+        for (std::size_t i = k * size / 6; i < (k + 1) * size / 6; ++i)
+          worst = std::max(worst, std::abs((ahead[i] - behind[i]) / (2 * h) - jacobian[j * size + i]));
+        EXPECT_LT(worst / scale, 1e-5) << one.state << one.angle << " channel " << k << " parameter " << j;
+      }
+    }
+  }
+}
+
+// The edges are smooth, so that quadratic triangles lose at least a factor of four in the force where they are halved.
+TEST(FullField, ConvergesWithTheMesh) {
+  const Measured measured = measure({1}, bulging, {-3, 1}, {7, 7}, 9);
+  const auto model = make_model("neo_hooke");
+  std::vector<double> force;
+  for (const char* size : {"2.5", "1.25", "0.3125"}) {
+    Plate setup;
+    setup.mesh = std::string(R"({"size": )") + size + "}";
+    setup.boundary = R"({"left": "measured", "right": "measured"})";
+    const auto test = make(setup, measured);
+    const std::size_t n = measured.step.size();
+    std::vector<double> values(6 * n);
+    const std::vector<double> p{100};
+    ASSERT_TRUE(test->predict({*model, p, {}}, {values, {}, {}, {}}).ok());
+    force.push_back(values[4 * n - 1]);
+  }
+  EXPECT_GT(std::abs(force[0] - force[2]), 4 * std::abs(force[1] - force[2]));
+  EXPECT_NEAR(force[1] / force[2], 1, 1e-3);
+}
+
+std::string refusal(const Plate& setup, const Measured& measured) {
+  try {
+    make(setup, measured);
+  } catch (const InputError& problem) {
+    return problem.what();
+  }
+  return "none";
+}
+
+TEST(FullField, RefusesWhatItCannotSimulate) {
+  const Measured measured = measure({1}, affine, {-3, 1}, {7, 7}, 9);
+  const auto with = [&](auto change) {
+    Plate setup;
+    change(setup);
+    return refusal(setup, measured);
+  };
+  EXPECT_EQ(with([](Plate&) {}), "none");
+  EXPECT_THAT(with([](Plate& s) { s.mesh = R"({"file": "none.msh"})"; }), HasSubstr("\"shape\""));
+  EXPECT_THAT(with([](Plate& s) {
+                s.mesh = R"({"file": "none.msh"})";
+                s.shape = "null";
+              }),
+              HasSubstr("none.msh does not exist"));
+  EXPECT_THAT(with([](Plate& s) { s.mesh = R"({"size": "2 kPa"})"; }), HasSubstr("kPa"));
+  EXPECT_THAT(with([](Plate& s) { s.mesh = R"({"size": 0.001})"; }), HasSubstr("triangles"));
+  EXPECT_THAT(with([](Plate& s) { s.boundary = R"({"left": "fixed"})"; }), HasSubstr("nothing would move"));
+  EXPECT_THAT(with([](Plate& s) { s.boundary = R"({"left": {"x": "measured"}})"; }),
+              HasSubstr("holds the specimen in y"));
+  EXPECT_THAT(with([](Plate& s) { s.boundary = R"({"left": "glued"})"; }), HasSubstr("glued"));
+  EXPECT_THAT(with([](Plate& s) { s.shape = R"({"rectangle": [5, 5]})"; }), HasSubstr("outside of the specimen"));
+  EXPECT_THAT(with([](Plate& s) { s.shape = R"({"rectangle": [30, 6], "corner": [-3, 1]})"; }),
+              HasSubstr("end the mesh where points were measured"));
+  Measured alone = measured;
+  alone.channels = {"uy"};
+  EXPECT_THAT(refusal({}, alone), HasSubstr("no column is mapped to 'ux'"));
+  const auto test = make({.state = "plane_strain"}, measured);
+  EXPECT_EQ(test->describe().volume, TestDescription::Volume::free);
+}
+
+}  // namespace
+}  // namespace tunica::testing::full_field
