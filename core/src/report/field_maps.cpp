@@ -52,7 +52,7 @@ Json squares(const std::vector<std::array<double, 3>>& points, const std::string
       box[2 * axis + 1] = std::max(box[2 * axis + 1], point[axis]);
     }
   const double width = std::max(box[1] - box[0], 1e-12), height = std::max(box[3] - box[2], 1e-12);
-  const double wanted = static_cast<double>(std::clamp<std::size_t>(points.size() * 2 / 3, 1, most_squares));
+  const double wanted = static_cast<double>(std::clamp<std::size_t>(points.size() / 2, 1, most_squares));
   const double side = std::max(std::sqrt(width * height / wanted), std::max(width, height) / 400);
   std::map<std::pair<long, long>, std::pair<double, int>> sums;
   for (const auto& [x, y, value] : points) {

@@ -24,7 +24,7 @@ class FullField final : public Test {
  public:
   explicit FullField(const TestSetup& setup)
       : edges_(edges_of(setup.options)),
-        specimen_(mesh_of(setup), held(edges_)),
+        smoothing_(static_cast<std::size_t>(setup.options.integer("smoothing"))),
         thickness_(setup.options.number("thickness")),
         plane_strain_(setup.options.text("state") == "plane_strain") {
     if (!(thickness_ > 0))
@@ -32,8 +32,9 @@ class FullField final : public Test {
     const double turn = setup.options.number("material_angle") * std::numbers::pi / 180;
     along_ = {std::cos(turn), -std::sin(turn)};
     bind(setup);
-    find_points();
-    prescribe(setup);
+    take_frames(setup);
+    mesh_ = meshed(mesh_of(setup));
+    for (const Channel channel : channels_) refuse_shared_corner(static_cast<std::size_t>(channel));
     description_.costly = true;
     description_.volume = plane_strain_ ? TestDescription::Volume::free : TestDescription::Volume::either;
   }
@@ -48,33 +49,51 @@ class FullField final : public Test {
           "history");
     if (!input.abscissae.empty())
       return Status::failed("full_field: points are where they were measured; take mechanisms out that move them");
-    if (plane_strain_) return simulate(input, output, specimen_, steps_, plane::Faces::held);
-    return free_faces::by_volume(
-        input, output,
-        [this](const TestInput& at, const TestOutput& out) {
-          return simulate(at, out, specimen_, steps_, plane::Faces::incompressible);
-        },
-        [this](const TestInput& at, const TestOutput& out) {
-          return simulate(at, out, specimen_, steps_, plane::Faces::free);
-        });
+    return on_mesh(input, output, *mesh_);
+  }
+
+  /// With each triangle in four.
+  Status agreement(const TestInput& input, std::vector<Agreement>& found) const override {
+    const std::size_t n = rows_.count, m = channels_.size();
+    std::vector<double> coarse(n * m), fine(n * m);
+    if (Status status = on_mesh(input, {coarse, {}, {}, {}}, *mesh_); !status.ok()) return status;
+    if (Status status = on_mesh(input, {fine, {}, {}, {}}, *meshed(refined(mesh_->specimen.mesh()))); !status.ok())
+      return status;
+    for (std::size_t k = 0; k < m; ++k) {
+      double difference = 0, largest = 0;
+      for (std::size_t i = k * n; i < (k + 1) * n; ++i) {
+        difference = std::max(difference, std::abs(coarse[i] - fine[i]));
+        largest = std::max(largest, std::abs(fine[i]));
+      }
+      const bool force = channels_[k] != Channel::ux && channels_[k] != Channel::uy;
+      found.push_back({fmt::format("each triangle in four: {}", rows_.channels[k]), difference, force ? "mN" : "mm",
+                       0.005 * largest});
+    }
+    return {};
   }
 
  private:
   struct Row {
     std::size_t step = 0;
     bool is_point = false;
-    std::size_t point = 0;  ///< in places_
+    std::size_t point = 0;  ///< in points_
   };
   struct Step {
     double value = 0;
-    std::vector<double> prescribed;  ///< by dof
     std::vector<std::size_t> rows;
+    Frame frame;
+  };
+  /// A mesh, and what the measured field is on it.
+  struct Meshed {
+    Specimen specimen;
+    std::vector<std::vector<double>> prescribed;  ///< a step, by dof
+    std::vector<Place> places;                    ///< of points_
   };
   enum class Channel { ux, uy, left, right, bottom, top };
   static constexpr std::array<const char*, 6> channel_names{"ux",          "uy",           "force_left",
                                                             "force_right", "force_bottom", "force_top"};
 
-  static std::array<std::array<bool, 2>, 4> held(const Edges& edges) {
+  [[nodiscard]] static std::array<std::array<bool, 2>, 4> held(const Edges& edges) {
     std::array<std::array<bool, 2>, 4> is{};
     for (std::size_t side = 0; side < 4; ++side)
       for (std::size_t c = 0; c < 2; ++c) is[side][c] = edges[side][c] != Edge::free;
@@ -117,35 +136,23 @@ class FullField final : public Test {
     }
   }
 
-  void find_points() {
-    std::map<Vector, std::size_t> known;
-    std::size_t outside = 0, points = 0;
-    Vector first{};
-    for (std::size_t i = 0; i < rows_.count; ++i) {
-      if (!which_[i].is_point) continue;
-      ++points;
-      const Vector point{abscissae_[1][i], abscissae_[2][i]};
-      const auto [found, is_new] = known.emplace(point, places_.size());
-      if (is_new) {
-        const auto place = specimen_.find(point);
-        if (!place && outside++ == 0) first = point;
-        places_.push_back(place.value_or(Place{}));
-      }
-      which_[i].point = found->second;
+  /// A node where two sides meet that are both held bears what belongs to either: no one can part it.
+  void refuse_shared_corner(std::size_t channel) const {
+    if (channel < 2) return;
+    const std::size_t side = channel - 2, axis = axis_of(side);
+    for (std::size_t other = 2 * (1 - axis); other < 2 * (1 - axis) + 2; ++other) {
+      if (edges_[side][axis] == Edge::free || edges_[other][axis] == Edge::free) continue;
+      for (const std::size_t node : mesh_->specimen.nodes_on(side))
+        if (std::ranges::find(mesh_->specimen.nodes_on(other), node) != mesh_->specimen.nodes_on(other).end())
+          throw InputError(fmt::format(
+              "full_field: '{}' is mapped, and the {} side, which meets the {} one in a corner, is held in {} "
+              "too; free it there, or take the force out",
+              channel_names[channel], side_names[other], side_names[side], axis == 0 ? "x" : "y"));
     }
-    if (points == 0) throw InputError("full_field: no row has a point; map 'x' and 'y' of the measured field");
-    if (outside > 0)
-      throw InputError(fmt::format(
-          "full_field: {} of {} points lie outside of the specimen, the first at ({:g}, {:g}) mm, which reaches from "
-          "({:g}, {:g}) to ({:g}, {:g}) mm; leave them out with \"where\", or correct the mesh or its unit",
-          outside, places_.size(), first[0], first[1], corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)));
   }
 
-  [[nodiscard]] double corner(std::size_t axis, std::size_t end) const {
-    return specimen_.mesh().nodes[specimen_.nodes_on(2 * axis + end).front()][axis];
-  }
-
-  void prescribe(const TestSetup& setup) {
+  /// The points of each step and what was measured there.
+  void take_frames(const TestSetup& setup) {
     std::array<std::span<const double>, 2> measured;
     for (std::size_t k = 0; k < channels_.size() && k < setup.measured.size(); ++k)
       if (channels_[k] == Channel::ux || channels_[k] == Channel::uy)
@@ -157,34 +164,67 @@ class FullField final : public Test {
               fmt::format("full_field: a side moves as measured in {0}, and no column is mapped to 'u{0}'; "
                           "map it",
                           c == 0 ? "x" : "y"));
-    const auto degree = static_cast<std::size_t>(setup.options.integer("smoothing"));
+    std::map<Vector, std::size_t> known;
     for (Step& step : steps_) {
-      Frame frame;
       for (const std::size_t i : step.rows) {
         if (!which_[i].is_point) continue;
-        frame.points.push_back({abscissae_[1][i], abscissae_[2][i]});
+        const Vector point{abscissae_[1][i], abscissae_[2][i]};
+        const auto [found, is_new] = known.emplace(point, points_.size());
+        if (is_new) points_.push_back(point);
+        which_[i].point = found->second;
+        step.frame.points.push_back(point);
         for (std::size_t c = 0; c < 2; ++c)
-          frame.displacements[c].push_back(measured[c].empty() ? std::nan("") : measured[c][i]);
+          step.frame.displacements[c].push_back(measured[c].empty() ? std::nan("") : measured[c][i]);
       }
-      if (frame.points.empty())
+      if (step.frame.points.empty())
         throw InputError(fmt::format("full_field: step {:g} has forces and no points; leave it out", step.value));
-      step.prescribed = field::prescribed(specimen_, edges_, frame, degree);
     }
   }
 
-  Status simulate(const TestInput& input, const TestOutput& output, const Specimen& on, const std::vector<Step>& steps,
-                  plane::Faces faces) const {
+  [[nodiscard]] std::shared_ptr<const Meshed> meshed(Mesh mesh) const {
+    auto made = std::make_shared<Meshed>(Meshed{Specimen(std::move(mesh), held(edges_)), {}, {}});
+    std::size_t outside = 0;
+    Vector first{};
+    for (const Vector& point : points_) {
+      const auto place = made->specimen.find(point);
+      if (!place && outside++ == 0) first = point;
+      made->places.push_back(place.value_or(Place{}));
+    }
+    if (outside > 0) {
+      const auto corner = [&](std::size_t axis, std::size_t end) {
+        return made->specimen.mesh().nodes[made->specimen.nodes_on(2 * axis + end).front()][axis];
+      };
+      throw InputError(fmt::format(
+          "full_field: {} of {} points lie outside of the specimen, the first at ({:g}, {:g}) mm, which reaches from "
+          "({:g}, {:g}) to ({:g}, {:g}) mm; leave them out with \"where\", or correct the mesh or its unit",
+          outside, points_.size(), first[0], first[1], corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)));
+    }
+    for (const Step& step : steps_)
+      made->prescribed.push_back(prescribed(made->specimen, edges_, step.frame, smoothing_));
+    return made;
+  }
+
+  Status on_mesh(const TestInput& input, const TestOutput& output, const Meshed& on) const {
+    if (plane_strain_) return simulate(input, output, on, plane::Faces::held);
+    return free_faces::by_volume(
+        input, output,
+        [&](const TestInput& at, const TestOutput& out) { return simulate(at, out, on, plane::Faces::incompressible); },
+        [&](const TestInput& at, const TestOutput& out) { return simulate(at, out, on, plane::Faces::free); });
+  }
+
+  Status simulate(const TestInput& input, const TestOutput& output, const Meshed& on, plane::Faces faces) const {
     const bool wants_parameters = !output.jacobian.empty();
     if (wants_parameters && !input.model.describe().parameter_derivatives)
       return Status::failed("full_field: the model has no parameter derivatives; difference the whole prediction");
-    Equilibrium body(on, input.model, input.model_parameters, along_, faces);
+    Equilibrium body(on.specimen, input.model, input.model_parameters, along_, faces);
     const std::size_t size = rows_.count * channels_.size();
     std::fill(output.values.begin(), output.values.end(), 0.0);
     std::fill(output.jacobian.begin(), output.jacobian.end(), 0.0);
     std::fill(output.abscissa_derivative.begin(), output.abscissa_derivative.end(), 0.0);
     std::vector<double> du, df;
-    for (const Step& step : steps) {
-      if (auto problem = body.move_to(step.prescribed))
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      const Step& step = steps_[k];
+      if (auto problem = body.move_to(on.prescribed[k]))
         return Status::failed(fmt::format("full_field: step {:g}: {}", step.value, *problem));
       if (!output.values.empty()) read(on, step, body.displacements(), body.forces(), output.values);
       if (!wants_parameters) continue;
@@ -201,21 +241,21 @@ class FullField final : public Test {
   }
 
   /// What the channels read off displacements and nodal forces, in the rows of a step.
-  void read(const Specimen& on, const Step& step, const std::vector<double>& u, const std::vector<double>& f,
+  void read(const Meshed& on, const Step& step, const std::vector<double>& u, const std::vector<double>& f,
             std::span<double> values) const {
     for (std::size_t k = 0; k < channels_.size(); ++k) {
       const auto channel = static_cast<std::size_t>(channels_[k]);
       const bool is_force = channel >= 2;
       double force = 0;
       for (std::size_t side = channel - 2; is_force && side == channel - 2; ++side) {
-        for (const std::size_t a : on.nodes_on(side)) force += f[2 * a + axis_of(side)];
+        for (const std::size_t a : on.specimen.nodes_on(side)) force += f[2 * a + axis_of(side)];
         force *= outwards(side) * thickness_;
       }
       for (const std::size_t i : step.rows) {
         double& value = values[k * rows_.count + i];
         if (is_force) value = force;
         if (is_force || !which_[i].is_point) continue;
-        const Place& place = places_[which_[i].point];
+        const Place& place = on.places[which_[i].point];
         value = 0;
         for (std::size_t a = 0; a < 6; ++a) value += place.weights[a] * u[2 * place.nodes[a] + channel];
       }
@@ -223,7 +263,7 @@ class FullField final : public Test {
   }
 
   Edges edges_;
-  Specimen specimen_;
+  std::size_t smoothing_;
   double thickness_;
   bool plane_strain_;
   std::array<double, 2> along_{};
@@ -231,7 +271,8 @@ class FullField final : public Test {
   std::vector<Channel> channels_;
   std::vector<Step> steps_;
   std::vector<Row> which_;
-  std::vector<Place> places_;
+  std::vector<Vector> points_;
+  std::shared_ptr<const Meshed> mesh_;
   TestRows rows_;
   TestDescription description_;
 };
