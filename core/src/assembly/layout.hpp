@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -72,6 +73,14 @@ struct MeasuredChannel {
 
   /// The number that a row has in the file, behind `where` and `rows`.
   [[nodiscard]] std::size_t file_row(std::size_t row) const { return file_rows.empty() ? row : file_rows[row]; }
+  /// Whether its rows are points of a measured field: "x" and "y" are prescribed.
+  [[nodiscard]] bool is_field() const { return coordinate("x") != nullptr && coordinate("y") != nullptr; }
+  /// The values of a prescribed quantity that is not the first one; null where there is no such.
+  [[nodiscard]] const std::vector<double>* coordinate(std::string_view name) const {
+    for (const auto& [title, values] : other_abscissae)
+      if (title.starts_with(name) && title.substr(name.size()).starts_with(" [")) return &values;
+    return nullptr;
+  }
   [[nodiscard]] bool held_out(std::size_t row) const { return !fitted[row] && !std::isnan(measured[row]); }
   [[nodiscard]] std::size_t held_out_rows() const {
     std::size_t rows = 0;

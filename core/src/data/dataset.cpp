@@ -44,6 +44,7 @@ void check_request(const DataRequest& request, const std::vector<Observable>& ob
     channel = channel || observable.role == Observable::Role::channel;
     time = time || observable.role == Observable::Role::time;
   }
+  for (const auto& [name, value] : request.constants) mapped.insert(name);
   for (const Observable& observable : observables)
     if (observable.required && !mapped.contains(observable.name))
       throw InputError(fmt::format("no column is mapped to '{}' ({}), which the test needs; add it to \"columns\"",
@@ -166,6 +167,8 @@ static Dataset read_table(const DataRequest& request, const std::vector<Observab
   dataset.lines = first.lines;
   dataset.time = first.time;
   dataset.understood = understood(first, request, observables);
+  for (const auto& [name, value] : request.constants)
+    dataset.abscissae.emplace_back(name, std::vector<double>(dataset.count, value));
   for (std::size_t k = 0; k < first.columns.size(); ++k) {
     const Series::Column& column = first.columns[k];
     const Observable& observable = *column.observable;

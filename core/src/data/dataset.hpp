@@ -72,6 +72,8 @@ struct DataRequest {
   /// is taken out or changed here counts.
   std::vector<DataRequest> tables = {};
   bool part = false;  ///< this is one of several tables
+  /// Observable → its value in all rows, in base units: a prescribed quantity that the file does not repeat.
+  std::vector<std::pair<std::string, double>> constants = {};
 };
 
 /// One fitted channel: the measured values and what is known of their noise.

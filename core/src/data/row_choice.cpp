@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,15 +18,28 @@
 namespace tunica::data {
 namespace {
 
-// 12 and 12.0 are the same specimen number; everything else is compared as text.
+// 12 and 12.0 are the same specimen number; "> 0" compares numbers; everything else is compared as text.
 bool same_value(const std::string& cell, const std::string& wanted) {
   if (cell == wanted) return true;
-  const auto number = [](const std::string& text, double& value) {
+  const auto number = [](std::string_view text) -> std::optional<double> {
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
   };
-  double a = 0, b = 0;
-  return number(cell, a) && number(wanted, b) && a == b;
+  const auto of_cell = number(cell);
+  if (!of_cell) return false;
+  for (const std::string_view sign : {">=", "<=", ">", "<"}) {
+    if (!wanted.starts_with(sign)) continue;
+    const auto bound = number(std::string_view(wanted).substr(sign.size()));
+    if (!bound) return false;
+    return sign == ">="   ? *of_cell >= *bound
+           : sign == "<=" ? *of_cell <= *bound
+           : sign == ">"  ? *of_cell > *bound
+                          : *of_cell < *bound;
+  }
+  return of_cell == number(wanted);
 }
 
 /// A branch and the number of its cycle; a column of cycles parts branches too.

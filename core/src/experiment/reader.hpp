@@ -76,10 +76,16 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
                     const std::vector<std::string>& models, const plugins::Catalogue& catalogue,
                     std::vector<SharedParameter>& shared);
 
-// reader_data.cpp
-/// The block "data" of a test; relative names of files begin at `folder`.
+// reader_tables.cpp
+/// The block "data" of a test, one table or several; relative names of files begin at `folder`.
 data::DataRequest read_data(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
                             const std::filesystem::path& folder);
+
+// reader_data.cpp
+/// A file of a series and its number, which is the first prescribed quantity that every row needs and nothing gives.
+using Numbered = std::pair<double, std::filesystem::path>;
+data::DataRequest read_table(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
+                             const std::filesystem::path& folder, const std::optional<Numbered>& numbered);
 /// "0:240:6", "-50:".
 data::RowRange read_row_range(const Node& node);
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -78,6 +80,9 @@ void read_columns(const Node& block, const std::vector<Observable>& observables,
           "Leave out one.");
     data.columns.emplace_back(name, read_column_name(column));
   }
+  for (const auto& [name, value] : data.constants)
+    if (!mapped.emplace(name, name).second)
+      node.fail(fmt::format("'{}' has a column and a constant in the data of {}", name, owner), "Leave out one.");
   for (const Observable& observable : observables)
     if (observable.required && !mapped.contains(observable.name))
       node.fail(fmt::format("no column is mapped to '{}', which {} needs", observable.name, owner),
@@ -173,58 +178,44 @@ void refuse_idle_keys(const Node& block, const std::vector<Observable>& observab
                "Map one in \"columns\", or leave the measure out.");
 }
 
+/// Prescribed quantities that are the same in all rows of a table.
+void read_constants(const Node& node, const std::vector<Observable>& observables, std::string_view owner,
+                    data::DataRequest& data) {
+  std::vector<std::string> prescribed;
+  for (const Observable& observable : observables)
+    if (observable.role == Role::abscissa) prescribed.push_back(observable.name);
+  for (const auto& [name, value] : node.members("an object of prescribed quantities and their values")) {
+    const auto found = std::ranges::find(observables, name, &Observable::name);
+    if (found == observables.end() || found->role != Role::abscissa)
+      value.fail(fmt::format("'{}' is no prescribed quantity of {}", excerpt(name), owner),
+                 suggestion(name, prescribed));
+    data.constants.emplace_back(name, value.quantity(found->unit, fmt::format("the value of '{}'", name)));
+  }
+}
+
+/// The number of a file is the first prescribed quantity that every row needs and nothing else gives.
+void read_number(const Node& block, const std::vector<Observable>& observables, std::string_view owner, double number,
+                 data::DataRequest& data) {
+  std::set<std::string> given;
+  for (const auto& [name, value] : data.constants) given.insert(name);
+  if (const auto columns = block.find("columns"); columns && columns->is_object())
+    for (const auto& [name, column] : columns->members(""))
+      if (const auto quantity = data::quantity_named(name, observables)) given.insert(quantity->observable->name);
+  for (const Observable& observable : observables)
+    if (observable.role == Role::abscissa && observable.required && !given.contains(observable.name)) {
+      data.constants.emplace_back(observable.name, number);
+      return;
+    }
+  block.fail(fmt::format("the number of a file means nothing in {}: every quantity that a row needs is given", owner),
+             "Take its column out, or name the files in \"data\": [{\"file\": …}, …].");
+}
+
 }  // namespace
 
-static data::DataRequest read_table(const Node& block, const std::vector<Observable>& observables,
-                                    std::string_view owner, const std::filesystem::path& folder);
-
-/// Several tables, whose rows follow one another.
-static data::DataRequest read_tables(const Node& list, const std::vector<Observable>& observables,
-                                     std::string_view owner, const std::filesystem::path& folder) {
-  data::DataRequest all;
-  for (const Node& block : list.elements("")) {
-    data::DataRequest table = read_table(block, observables, owner, folder);
-    if (table.files.size() > 1)
-      block.child_or_self("files").fail("replicates are given in one of several tables",
-                                        "Give each table one \"file\", or make each replicate a test of its own.");
-    table.part = true;
-    if (all.tables.empty()) all.stress_measure = table.stress_measure;
-    if (table.stress_measure != all.stress_measure)
-      block.child_or_self("stress_measure")
-          .fail(fmt::format("the tables of {} state two stress measures", owner), "Give the same one in all of them.");
-    all.files.push_back(table.files.front());
-    for (const auto& column : table.columns)
-      if (std::ranges::find(all.columns, column.first, [](const auto& one) { return one.first; }) == all.columns.end())
-        all.columns.push_back(column);
-    for (const auto& [name, noise] : table.noise) {
-      const auto same = std::ranges::find(all.noise, name, [](const auto& one) { return one.first; });
-      if (same == all.noise.end())
-        all.noise.emplace_back(name, noise);
-      else if (same->second.absolute != noise.absolute || same->second.relative != noise.relative ||
-               same->second.correlation != noise.correlation)
-        block.child_or_self("noise").fail(fmt::format("two tables of {} state another noise of '{}'", owner, name),
-                                          "Give the same in both.");
-    }
-    all.tables.push_back(std::move(table));
-  }
-  if (all.tables.empty())
-    list.fail(fmt::format("the list of tables of {} is empty", owner), "Give at least one, {\"file\": …}.");
-  const bool ordered = std::ranges::all_of(
-      all.tables, [](const data::DataRequest& table) { return table.order == data::Order::loading; });
-  if (ordered) all.order = data::Order::loading;
-  return all;
-}
-
-data::DataRequest read_data(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
-                            const std::filesystem::path& folder) {
-  return block.is_array() ? read_tables(block, observables, owner, folder)
-                          : read_table(block, observables, owner, folder);
-}
-
-static data::DataRequest read_table(const Node& block, const std::vector<Observable>& observables,
-                                    std::string_view owner, const std::filesystem::path& folder) {
-  std::vector<std::string> keys = {"file",  "files", "columns",   "stress_measure", "rows",
-                                   "where", "order", "time_from", "noise"};
+data::DataRequest read_table(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
+                             const std::filesystem::path& folder, const std::optional<Numbered>& numbered) {
+  std::vector<std::string> keys = {"file",  "files",     "columns", "stress_measure", "rows",          "where",
+                                   "order", "time_from", "noise",   "constant",       "numbered_files"};
   keys.insert(keys.end(), rig_keys().begin(), rig_keys().end());
   block.allow_only(keys, fmt::format("the data of {}", owner));
   data::DataRequest data;
@@ -232,7 +223,10 @@ static data::DataRequest read_table(const Node& block, const std::vector<Observa
   if (file && files)
     block.fail(fmt::format("the data of {} have \"file\" and \"files\"", owner),
                "Leave out one: \"files\" is the list of replicates.");
-  if (!file && !files)
+  if (numbered && (file || files))
+    block.fail(fmt::format("the data of {} have \"numbered_files\" and \"{}\"", owner, file ? "file" : "files"),
+               "Leave out one.");
+  if (!file && !files && !numbered)
     block.fail(fmt::format("the key 'file' is missing in the data of {}", owner),
                "Give \"file\", or \"files\" for replicates.");
   if (file) data.files.push_back(read_file_name(*file, folder));
@@ -242,7 +236,10 @@ static data::DataRequest read_table(const Node& block, const std::vector<Observa
       if (std::find(data.files.begin(), data.files.end() - 1, data.files.back()) != data.files.end() - 1)
         node.fail("this file appears twice in the list", "A replicate is another measurement; remove one.");
     }
+  if (numbered) data.files.push_back(numbered->second.lexically_normal());
   if (data.files.empty()) files->fail("the list of files is empty");
+  if (const auto node = block.find("constant")) read_constants(*node, observables, owner, data);
+  if (numbered) read_number(block, observables, owner, numbered->first, data);
   read_columns(block, observables, owner, data);
   if (const auto node = block.find("stress_measure"))
     data.stress_measure = node->one_of(data::stress_measures(), "stress measure");

@@ -107,6 +107,17 @@ Json data_schema(const TestFactory& factory) {
                          {"items", {{"type", "string"}}},
                          {"minItems", 1},
                          {"maxItems", limits::entries}};
+  properties["numbered_files"] = {
+      {"description",
+       "One table a file, \"frame_*.csv\": the number for the star is the prescribed quantity that no column gives."},
+      {"type", "string"}};
+  Json constants = Json::object();
+  for (const Observable& observable : factory.observables)
+    if (observable.role == Role::abscissa)
+      constants[observable.name] = quantity_schema(fmt::format("{} [{}]", observable.doc, observable.unit));
+  if (!constants.empty())
+    properties["constant"] =
+        object_schema("Prescribed quantities that are the same in all rows.", std::move(constants));
   properties["columns"] = columns_schema(factory.observables);
   for (const char* name : {"stress_measure", "rows", "where", "order", "time_from"}) properties[name] = reference(name);
   add_rig_properties(properties, factory.observables);
@@ -118,7 +129,8 @@ Json data_schema(const TestFactory& factory) {
   properties["noise"]["anyOf"] =
       Json::array({reference("noise"), object_schema("By channel.", std::move(per_channel))});
   Json schema = object_schema("The measured data.", std::move(properties), {"columns"});
-  schema["oneOf"] = Json::array({{{"required", {"file"}}}, {{"required", {"files"}}}});
+  schema["oneOf"] =
+      Json::array({{{"required", {"file"}}}, {{"required", {"files"}}}, {{"required", {"numbered_files"}}}});
   return schema;
 }
 

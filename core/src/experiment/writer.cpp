@@ -108,6 +108,7 @@ Json to_json(const data::DataRequest& data) {
   else
     json["files"] = files;
   for (const auto& [observable, column] : data.columns) json["columns"][observable] = column_name(column);
+  for (const auto& [observable, value] : data.constants) json["constant"][observable] = value;
   json["stress_measure"] = data.stress_measure;
   json["rows"] = to_json(data.rows);
   for (const auto& [column, value] : data.where) add_condition(json["where"][column], value);

@@ -56,7 +56,13 @@ double contrast(const Evidence& evidence, const Curve& curve, Eigen::Index k) {
 std::vector<GrossRow> gross_rows(const Evidence& evidence) {
   const Eigen::MatrixXd J = interior(evidence.fit), Q = basis(J, 1e-8);
   std::vector<GrossRow> found;
+  const auto& channels = evidence.base->layout().channels;
   for (const Curve& curve : evidence.curves) {
+    // Neighbours in a field are not those in the file, so that a steep place would pass for gross errors.
+    if (std::ranges::any_of(channels, [&](const assembly::MeasuredChannel& view) {
+          return view.test == curve.test && view.observable == curve.channel && view.is_field();
+        }))
+      continue;
     std::vector<GrossRow> of_curve;
     for (Eigen::Index k = 0; k < curve.count; ++k) {
       const Eigen::Index i = curve.first + k;

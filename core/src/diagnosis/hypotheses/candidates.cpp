@@ -43,6 +43,11 @@ bool already_there(const std::vector<experiment::MechanismEntry>& entries, const
   return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.type == id; });
 }
 
+/// A field shows strains along all directions of its plane at once.
+bool has_field(const assembly::Assembly& base) {
+  return std::ranges::any_of(base.layout().channels, &assembly::MeasuredChannel::is_field);
+}
+
 /// Thrown where a mechanism changes the volume and no channel shows it.
 struct VolumeIsNotSeen {};
 
@@ -50,6 +55,7 @@ struct VolumeIsNotSeen {};
 /// volume looks like many errors of a rig.
 bool sees_volume(const assembly::Assembly& base, const Experiment& experiment, const plugins::Catalogue& catalogue) {
   const auto& channels = base.layout().channels;
+  if (has_field(base)) return true;
   return std::any_of(channels.begin(), channels.end(), [&](const assembly::MeasuredChannel& channel) {
     const auto& observables = catalogue.tests().at(experiment.test(channel.test).type).factory.observables;
     return std::any_of(observables.begin(), observables.end(), [&](const Observable& one) {
@@ -75,7 +81,7 @@ class CandidateSearch {
       pasts_.emplace(one.test, one.past);
     const std::vector<std::string>& asked = inquiry.request.mechanisms;
     asked_.insert(asked.begin(), asked.end());
-    for (std::size_t m = 0; m < base_.models().count(); ++m)
+    for (std::size_t m = 0; m < base_.models().count() && !has_field(base_); ++m)
       if (is_isotropic(base_.models().model(m))) isotropic_.insert(base_.models().name(m));
   }
 
@@ -340,7 +346,7 @@ class CandidateSearch {
   bool sees_volume_;
   std::map<std::string, data::Past> pasts_;  ///< of tests, where they are not known
   std::set<std::string> asked_;              ///< mechanisms, by name
-  std::set<std::string> isotropic_;          ///< models
+  std::set<std::string> isotropic_;          ///< models, where the tests cannot tell directions apart
 };
 
 }  // namespace

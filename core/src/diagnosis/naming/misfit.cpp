@@ -35,14 +35,33 @@ std::pair<std::size_t, std::size_t> region(const std::vector<double>& means) {
   return {first - std::min(first, half), std::min(last + half, means.size() - 1)};
 }
 
+/// Where a field is missed most, and by how much in all.
+Misfit described_field(const Evidence& evidence, const Curve& curve, const assembly::MeasuredChannel& view, double p) {
+  const Eigen::VectorXd r = evidence.fit.residuals.segment(curve.first, curve.count);
+  Eigen::Index worst = 0;
+  r.cwiseAbs().maxCoeff(&worst);
+  const std::size_t row = curve.rows[static_cast<std::size_t>(worst)];
+  const double step = view.abscissa[row];
+  Misfit misfit{curve.test, curve.channel, {}, p, step, step};
+  misfit.where = fmt::format(
+      "{:.1f} σ on average over {} points, most at {} {:.4g}, x {:.4g} mm, y {:.4g} mm: measured lies {} the "
+      "prediction "
+      "by {:.1f} σ",
+      std::sqrt(r.squaredNorm() / static_cast<double>(r.size())), curve.count, view.abscissa_name, step,
+      (*view.coordinate("x"))[row], (*view.coordinate("y"))[row], r[worst] < 0 ? "above" : "below", std::abs(r[worst]));
+  return misfit;
+}
+
 /// The region of a curve where `shape`, in σ, is largest, and what the residuals do there.
 Misfit described(const Evidence& evidence, const Curve& curve, const Eigen::VectorXd& shape, double p) {
-  const auto [first, last] = region(window_means(shape));
   const auto& channels = evidence.base->layout().channels;
-  const assembly::DrawnOver& over =
-      std::find_if(channels.begin(), channels.end(), [&](const assembly::MeasuredChannel& view) {
-        return view.test == curve.test && view.observable == curve.channel;
-      })->drawn_over;
+  const auto view = std::find_if(channels.begin(), channels.end(), [&](const assembly::MeasuredChannel& one) {
+    return one.test == curve.test && one.observable == curve.channel;
+  });
+  if (view->is_field() && std::isfinite((*view->coordinate("x"))[curve.rows.front()]))
+    return described_field(evidence, curve, *view, p);
+  const auto [first, last] = region(window_means(shape));
+  const assembly::DrawnOver& over = view->drawn_over;
   double from = INFINITY, to = -INFINITY;
   for (std::size_t k = first; k <= last; ++k) {
     from = std::min(from, over.values[curve.rows[k]]);

@@ -45,6 +45,12 @@ std::optional<Warning> kept_gross_rows(const Evidence& evidence, const Explanati
       kept.push_back(fmt::format("row {} of {}, {}", row.file_row, row.test, row.channel));
   }
   if (kept.empty()) return std::nullopt;
+  constexpr std::size_t most_listed = 12;
+  if (kept.size() > most_listed) {
+    const std::size_t others = kept.size() - most_listed;
+    kept.resize(most_listed);
+    kept.push_back(fmt::format("{} others (\"left_out\" in result.json)", others));
+  }
   return Warning{WarningKind::run_keeps_gross_rows,
                  fmt::format("extended.json takes out one gross row of a test; a run counts the others like any row: "
                              "{}. Remove them from the data file",
