@@ -72,7 +72,12 @@ TEST(PlaneSpecimen, SlidingEndsGiveTheHomogeneousStrip) {
   for (const double angle : {0.0, 90.0}) {
     const auto strip = make_strip(
         pulled, {angle == 0 ? "axial" : "circumferential", {"stress", "transverse_stretch"}, "first_piola_kirchhoff"});
-    for (const auto& [model, p] : {std::pair(make_model("gho"), wall), std::pair(hyperfoam(), foam)}) {
+    Options terms;
+    terms.set("terms", std::string(R"([{"name": "m", "invariant": "I1bar", "law": "linear"},
+                                       {"name": "n", "invariant": "I2", "law": "linear"},
+                                       {"name": "v", "invariant": "J", "law": "quadratic"}])"));
+    for (const auto& [model, p] : {std::pair(make_model("gho"), wall), std::pair(hyperfoam(), foam),
+                                   std::pair(make_model("composed", terms), std::vector{20., 5., 60.})}) {
       const auto found = values_of(*make({.ends = "sliding", .elements = "[3, 5]", .angle = angle}, pulled), *model, p);
       const Prediction expected = predict(*strip, *model, p);
       ASSERT_TRUE(expected.status.ok());

@@ -144,6 +144,14 @@ std::vector<Case> cases() {
           {std::string("gho ") + invariants + " " + law, compressible(make_model("gho"), invariants, law), p});
     }
   }
+  Options terms;
+  terms.set("terms", std::string(R"([{"name": "m", "invariant": "I1", "law": "exponential"},
+                                     {"name": "n", "invariant": "I2bar", "law": "linear"},
+                                     {"name": "p", "invariant": "I1bar*I2bar", "law": "linear"},
+                                     {"name": "f", "invariant": "fibrebar", "family": "diagonal", "law": "quadratic"},
+                                     {"name": "v", "invariant": "J", "law": "ogden"},
+                                     {"name": "w", "invariant": "J", "law": "power"}])"));
+  all.push_back({"composed", make_model("composed", terms), {20, 1.5, 6, -2, 9, 35, 50, -2, 300, 4}});
   return all;
 }
 

@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-#include "tunica/models/volume_energy.hpp"
+#include "tunica/models/isochoric.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::compressibility {
@@ -73,7 +73,7 @@ class CompressibleModel final : public Model {
       Tensor at;
       for (std::size_t k = 0; k < 6; ++k) at[k] = points.C[k * n + i];
       s.volumes.emplace_back(at);
-      const double scale = isochoric_ ? std::exp(-2 * s.volumes[i].log_volume() / 3) : 1;
+      const double scale = isochoric_ ? isochoric_factor(s.volumes[i]) : 1;
       for (std::size_t k = 0; k < 6; ++k) s.C[k * n + i] *= scale;
     }
     s.stress.resize(6 * n);
@@ -126,49 +126,6 @@ class CompressibleModel final : public Model {
     for (const double entry : A) stiffness = std::max(stiffness, std::abs(entry));
     compliance = 1 / (stiffest * (stiffness > 0 ? stiffness : 1));
     return status;
-  }
-
-  /// From the base at C̄ to W₀(C̄) as a function of C, at one point. With f = J^(−2/3), S = f Dev S̄ and s = f S̄ : C,
-  ///
-  ///   2 ∂S/∂C = f² P : Ā : Pᵀ + ⅔ s (C⁻¹⊙C⁻¹ − ⅓ C⁻¹⊗C⁻¹) − ⅔ (C⁻¹⊗S + S⊗C⁻¹),   P = 1 − ⅓ C⁻¹⊗C
-  static void make_isochoric(const MaterialPoints& points, const VolumeEnergy& volume, const MaterialResponse& out,
-                             std::size_t n, std::size_t i) {
-    const double f = std::exp(-2 * volume.log_volume() / 3);
-    const Tensor& inverse = volume.inverse();
-    Tensor C;
-    for (std::size_t k = 0; k < 6; ++k) C[k] = points.C[k * n + i];
-    const auto deviator = [&](Tensor x) {
-      const double mean = free_faces::contract(x, C) / 3;
-      for (std::size_t k = 0; k < 6; ++k) x[k] -= mean * inverse[k];
-      return x;
-    };
-    const auto project = [&](std::span<double> values, std::size_t first) {
-      Tensor x;
-      for (std::size_t k = 0; k < 6; ++k) x[k] = f * values[(first + k) * n + i];
-      const Tensor dev = deviator(x);
-      for (std::size_t k = 0; k < 6; ++k) values[(first + k) * n + i] = dev[k];
-      return free_faces::contract(x, C);
-    };
-    const double s = project(out.stress, 0);
-    for (std::size_t j = 0; 6 * j * n < out.stress_dp.size(); ++j) project(out.stress_dp, 6 * j);
-    if (out.tangent.empty()) return;
-    // Ā : Pᵀ row by row, then P : of the columns. Both are Dev with C⁻¹ and C.
-    std::array<Tensor, 6> A;
-    for (std::size_t a = 0; a < 6; ++a) {
-      for (std::size_t b = 0; b < 6; ++b) A[a][b] = f * f * out.tangent[(6 * a + b) * n + i];
-      A[a] = deviator(A[a]);
-    }
-    for (std::size_t b = 0; b < 6; ++b) {
-      Tensor column;
-      for (std::size_t a = 0; a < 6; ++a) column[a] = A[a][b];
-      column = deviator(column);
-      for (std::size_t a = 0; a < 6; ++a) {
-        const double S_a = out.stress[a * n + i], S_b = out.stress[b * n + i];
-        out.tangent[(6 * a + b) * n + i] = column[a] +
-                                           2.0 / 3 * s * (volume.product(a, b) - inverse[a] * inverse[b] / 3) -
-                                           2.0 / 3 * (inverse[a] * S_b + S_a * inverse[b]);
-      }
-    }
   }
 
   std::unique_ptr<Model> base_;

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "added_term.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "energy.hpp"
+#include "tunica/error.hpp"
 #include "tunica/models/decorated_model.hpp"
 #include "tunica/models/model_sum.hpp"
+#include "volume_laws.hpp"
 
 namespace tunica::composed {
 
@@ -20,8 +24,8 @@ using Json = nlohmann::ordered_json;
 /// The options as the one entry of a list of terms. A default says nothing where it does not belong.
 std::string list_of(const Options& options) {
   Json term = {{"name", "term"}, {"invariant", options.text("invariant")}};
-  if (options.text("invariant") != "stretches") term["law"] = options.text("law");
-  if (options.text("invariant") == "fibre")
+  if (!options.text("invariant").starts_with("stretches")) term["law"] = options.text("law");
+  if (options.text("invariant").starts_with("fibre"))
     for (const char* key : {"family", "dispersion", "fibre_switch"}) term[key] = options.text(key);
   if (options.text("law") == "spline") term["knots"] = Json::parse(options.text("knots"));
   return Json::array({term}).dump();
@@ -44,14 +48,20 @@ std::unique_ptr<Model> wrapped(std::unique_ptr<Model> base, const Options& optio
   std::vector<Parameter> own = own_parameters(*added);
   // A curve has a height at every knot: none of them alone switches it off.
   const double null = terms.front().law.name == "spline" ? std::numeric_limits<double>::quiet_NaN() : 0;
+  if (added->describe().compressible && !base->describe().compressible)
+    throw InputError(fmt::format(
+        "added_term: the invariant '{}' is of materials that change their volume, and the model '{}' keeps it. Take "
+        "another invariant, or a model that is compressible by itself.",
+        options.text("invariant"), base->describe().type));
   const std::shared_ptr<const Model> shared(std::move(base));
   if (shared->parts().empty() || added->parts().empty())
     return std::make_unique<ModelSum>(shared, std::move(own), null, std::move(added));
   EnergyParts parts;
   for (const auto& part : shared->parts()) parts.push_back(std::make_unique<ForwardedPart>(shared, *part));
   const std::shared_ptr<const Model> owner(std::move(added));
-  parts.push_back(std::make_unique<AddedPart>(shared->describe().parameters.size(),
-                                              std::make_unique<ForwardedPart>(owner, *owner->parts().front())));
+  for (const auto& part : owner->parts())
+    parts.push_back(std::make_unique<AddedPart>(shared->describe().parameters.size(),
+                                                std::make_unique<ForwardedPart>(owner, *part)));
   return std::make_unique<DecoratedModel>(shared, own, null, std::move(parts));
 }
 
@@ -64,7 +74,10 @@ Option knots() {
 }  // namespace
 
 MechanismFactory added_term() {
-  std::vector<std::string> laws = law_names();
+  std::vector<std::string> laws = law_names(), invariants = invariant_words();
+  for (const std::string& name : volume_law_names())
+    if (std::find(laws.begin(), laws.end(), name) == laws.end()) laws.push_back(name);
+  std::erase(invariants, "across");
   MechanismFactory mechanism{
       .id = "added_term",
       .cause = "The energy has a term that the model lacks.",
@@ -75,8 +88,7 @@ MechanismFactory added_term() {
       .look_alikes = {"second_invariant", "matrix_stiffening", "chain_extensibility"},
       .isolated_by = "tests that vary the invariant of the term and hold the others",
       .reference = "Linka, Kuhl, Comput. Methods Appl. Mech. Eng. 403:115731 (2023), for the choice of terms",
-      .options = {Option::choice("invariant", {"I1", "I2", "fibre", "coupling", "radial", "stretches"}, "I2",
-                                 "What the term is a function of."),
+      .options = {Option::choice("invariant", std::move(invariants), "I2", "What the term is a function of."),
                   Option::choice("law", std::move(laws), "linear", "How it grows; stretches have their own."),
                   Option::choice("family", {"axial", "circumferential", "diagonal", "single"}, "axial",
                                  "Which fibres, of the invariant fibre."),

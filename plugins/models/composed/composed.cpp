@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A model put together in the experiment file, W = Σ_k ψ_k(x_k): terms of one invariant and one law each. And the
 // mechanism that adds such a term to any model.
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "added_term.hpp"
 #include "energy.hpp"
+#include "tunica/error.hpp"
 #include "tunica/plugin.hpp"
 
 namespace {
@@ -10,7 +15,19 @@ namespace {
 using namespace tunica;
 using namespace tunica::composed;
 
-std::unique_ptr<Model> create(const Options& options) { return energy_of(read_terms(options.text("terms"))); }
+/// Without a term of J nothing would resist a change of volume.
+std::unique_ptr<Model> create(const Options& options) {
+  const std::vector<Term> terms = read_terms(options.text("terms"));
+  const auto isochoric = std::find_if(terms.begin(), terms.end(), [](const Term& term) { return term.isochoric; });
+  const bool has_volume =
+      std::any_of(terms.begin(), terms.end(), [](const Term& term) { return term.quantity == Quantity::volume; });
+  if (isochoric != terms.end() && !has_volume)
+    throw InputError(
+        fmt::format("\"terms\", '{}': the invariant is of the strain at constant volume, and no term has the invariant "
+                    "J, so that nothing resists a change of volume. Add one, or take the invariant without 'bar'.",
+                    isochoric->name));
+  return energy_of(terms);
+}
 
 }  // namespace
 

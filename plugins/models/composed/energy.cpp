@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "compressible_sum.hpp"
 #include "formula.hpp"
 #include "fused.hpp"
 #include "term_part.hpp"
@@ -145,22 +146,13 @@ std::unique_ptr<Model> hyperelastic_model(const ModelDescription& description, c
   return std::make_unique<FusedModel>(description, std::move(parts), std::move(fused));
 }
 
-}  // namespace
-
-std::unique_ptr<Model> energy_of(const std::vector<Term>& terms) {
-  const Layout layout(terms);
-  ModelDescription description{.type = "composed", .parameters = layout.parameters()};
-  if (description.parameters.size() > hyperelastic::max_model_parameters)
-    throw InputError(
-        fmt::format("\"terms\" have {} parameters together, and a model may have {}. Take terms or knots out.",
-                    description.parameters.size(), hyperelastic::max_model_parameters));
-  description.formula = formula_of(terms);
+std::unique_ptr<Model> elastic_model(ModelDescription description, const std::vector<Term>& terms,
+                                     const Layout& layout) {
   std::vector<std::size_t> of_stretches;
   for (const Term& term : terms) {
+    if (term.quantity != Quantity::stretches) continue;
     const Places& places = layout.of(term);
-    add_admissible(term, places, description.admissible);
-    if (term.quantity == Quantity::stretches)
-      of_stretches.insert(of_stretches.end(), places.law.begin(), places.law.end());
+    of_stretches.insert(of_stretches.end(), places.law.begin(), places.law.end());
   }
   if (of_stretches.empty()) return hyperelastic_model(description, terms, layout);
   if (of_stretches.size() > 2 * most_stretch_terms)
@@ -173,6 +165,42 @@ std::unique_ptr<Model> energy_of(const std::vector<Term>& terms) {
   auto of_principal = stretch_model(description.parameters, of_stretches);
   return std::make_unique<WithStretches>(std::move(description), std::move(invariants), std::move(of_principal),
                                          std::move(of_stretches));
+}
+
+/// The terms of C, those of C̄ and those of J apart.
+std::unique_ptr<Model> compressible_model(ModelDescription description, const std::vector<Term>& terms,
+                                          const Layout& layout) {
+  std::vector<CompressibleSum::VolumeTerm> of_volume;
+  std::vector<Term> full, isochoric;
+  for (const Term& term : terms) {
+    if (term.quantity == Quantity::volume)
+      of_volume.push_back({term.law.respond, layout.of(term).law});
+    else
+      (term.isochoric ? isochoric : full).push_back(term);
+  }
+  const auto model = [&](const std::vector<Term>& some) {
+    return some.empty() ? nullptr : elastic_model(description, some, layout);
+  };
+  auto of_full = model(full), of_isochoric = model(isochoric);
+  return std::make_unique<CompressibleSum>(std::move(description), std::move(of_full), std::move(of_isochoric),
+                                           std::move(of_volume));
+}
+
+}  // namespace
+
+std::unique_ptr<Model> energy_of(const std::vector<Term>& terms) {
+  const Layout layout(terms);
+  ModelDescription description{.type = "composed", .parameters = layout.parameters()};
+  if (description.parameters.size() > hyperelastic::max_model_parameters)
+    throw InputError(
+        fmt::format("\"terms\" have {} parameters together, and a model may have {}. Take terms or knots out.",
+                    description.parameters.size(), hyperelastic::max_model_parameters));
+  description.formula = formula_of(terms);
+  for (const Term& term : terms) add_admissible(term, layout.of(term), description.admissible);
+  const bool changes_volume =
+      std::any_of(terms.begin(), terms.end(), [](const Term& term) { return term.changes_volume(); });
+  return changes_volume ? compressible_model(std::move(description), terms, layout)
+                        : elastic_model(std::move(description), terms, layout);
 }
 
 }  // namespace tunica::composed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formula.hpp"
 
+#include <algorithm>
 #include <cctype>
 
 #include <fmt/format.h>
@@ -13,13 +14,15 @@ namespace {
 /// The squared stretch along the family, or what stands for it where fibres scatter.
 std::string fibre_words(const Term& term) {
   std::string along = term.family == Family::axial ? "C_zz" : term.family == Family::circumferential ? "C_tt" : "I4";
+  if (term.isochoric) along.insert(along.find('_') == std::string::npos ? along.size() : 1, "bar");
+  const char* const bar = term.isochoric ? "bar" : "";
   switch (term.dispersion) {
     case Dispersion::none:
       return along;
     case Dispersion::rotational:
-      return fmt::format("{0}_kappa I1 + (1 - 3 {0}_kappa) {1}", term.name, along);
+      return fmt::format("{0}_kappa I1{2} + (1 - 3 {0}_kappa) {1}", term.name, along, bar);
     case Dispersion::two_planes:
-      return fmt::format("{0}_A I1 + {0}_B {1} + (1 - 3 {0}_A - {0}_B) C_rr", term.name, along);
+      return fmt::format("{0}_A I1{2} + {0}_B {1} + (1 - 3 {0}_A - {0}_B) C{2}_rr", term.name, along, bar);
   }
   return along;
 }
@@ -28,9 +31,9 @@ std::string invariant_words(const Term& term) {
   const std::string& angle = term.angle_of.empty() ? term.name : term.angle_of;
   switch (term.quantity) {
     case Quantity::first_invariant:
-      return "(I1 - 3)";
+      return term.isochoric ? "(I1bar - 3)" : "(I1 - 3)";
     case Quantity::second_invariant:
-      return "(I2 - 3)";
+      return term.isochoric ? "(I2bar - 3)" : "(I2 - 3)";
     case Quantity::radial:
       return "(C_rr - 1)";
     case Quantity::across:
@@ -40,8 +43,10 @@ std::string invariant_words(const Term& term) {
     case Quantity::fibre:
       return fmt::format("({} - 1)", fibre_words(term));
     case Quantity::product:
-      return fmt::format("(I1 - 3){} (I2 - 3){}", term.first_power == 2 ? "^2" : "",
-                         term.second_power == 2 ? "^2" : "");
+      return fmt::format("(I1{0} - 3){1} (I2{0} - 3){2}", term.isochoric ? "bar" : "",
+                         term.first_power == 2 ? "^2" : "", term.second_power == 2 ? "^2" : "");
+    case Quantity::volume:
+      return "(J - 1)";
     case Quantity::stretches:
       break;
   }
@@ -65,7 +70,8 @@ std::string filled(const Term& term) {
 
 std::string term_words(const Term& term) {
   if (term.quantity == Quantity::stretches)
-    return fmt::format("{0}_mu/{0}_alpha (l1^{0}_alpha + l2^{0}_alpha + l3^{0}_alpha - 3)", term.name);
+    return fmt::format("{0}_mu/{0}_alpha (l1{1}^{0}_alpha + l2{1}^{0}_alpha + l3{1}^{0}_alpha - 3)", term.name,
+                       term.isochoric ? "bar" : "");
   std::string text = filled(term);
   if (term.law.name == "spline" || term.law.name == "inverse_langevin")
     text = fmt::format("[{}{}]", text, term.law.name == "spline" ? "" : ", x = " + invariant_words(term));
@@ -79,7 +85,14 @@ std::string term_words(const Term& term) {
 std::string formula_of(const std::vector<Term>& terms) {
   std::vector<std::string> words;
   for (const Term& term : terms) words.push_back(term_words(term));
-  return fmt::format("W = {}", fmt::join(words, " + "));
+  // What pulls at rest is relieved there; see CompressibleSum.
+  const auto pulls = [](const Term& term) {
+    return term.quantity == Quantity::stretches || (term.quantity != Quantity::product && !term.law.rests);
+  };
+  const bool relieved =
+      std::any_of(terms.begin(), terms.end(), [](const Term& term) { return term.changes_volume(); }) &&
+      std::any_of(terms.begin(), terms.end(), [&](const Term& term) { return !term.isochoric && pulls(term); });
+  return fmt::format("W = {}{}", fmt::join(words, " + "), relieved ? " - a ln J, a so that S = 0 at rest" : "");
 }
 
 }  // namespace tunica::composed

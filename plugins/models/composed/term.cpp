@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tunica/error.hpp"
+#include "volume_laws.hpp"
 
 namespace tunica::composed {
 
@@ -20,11 +21,22 @@ using Json = nlohmann::ordered_json;
 template <class Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
-const Words<Quantity> quantities{{"I1", Quantity::first_invariant},  {"I2", Quantity::second_invariant},
-                                 {"fibre", Quantity::fibre},         {"coupling", Quantity::coupling},
-                                 {"radial", Quantity::radial},       {"across", Quantity::across},
-                                 {"stretches", Quantity::stretches}, {"I1*I2", Quantity::product},
-                                 {"I1^2*I2", Quantity::product},     {"I1*I2^2", Quantity::product}};
+const Words<Quantity> quantities{{"I1", Quantity::first_invariant},
+                                 {"I2", Quantity::second_invariant},
+                                 {"fibre", Quantity::fibre},
+                                 {"coupling", Quantity::coupling},
+                                 {"radial", Quantity::radial},
+                                 {"across", Quantity::across},
+                                 {"stretches", Quantity::stretches},
+                                 {"I1*I2", Quantity::product},
+                                 {"I1^2*I2", Quantity::product},
+                                 {"I1*I2^2", Quantity::product},
+                                 {"J", Quantity::volume}};
+/// The same invariants of the strain at constant volume.
+const Words<Quantity> isochoric_quantities{{"I1bar", Quantity::first_invariant}, {"I2bar", Quantity::second_invariant},
+                                           {"fibrebar", Quantity::fibre},        {"stretchesbar", Quantity::stretches},
+                                           {"I1bar*I2bar", Quantity::product},   {"I1bar^2*I2bar", Quantity::product},
+                                           {"I1bar*I2bar^2", Quantity::product}};
 const Words<Family> families{{"axial", Family::axial},
                              {"circumferential", Family::circumferential},
                              {"diagonal", Family::diagonal},
@@ -94,6 +106,29 @@ class Entry {
   std::string place_;
 };
 
+Words<Quantity> all_quantities() {
+  Words<Quantity> all = quantities;
+  all.insert(all.end(), isochoric_quantities.begin(), isochoric_quantities.end());
+  return all;
+}
+
+/// The law by its name: one of those of the invariant.
+Law law_of(const Entry& entry, const Term& term) {
+  const std::string name = entry.text("law");
+  const bool of_volume = term.quantity == Quantity::volume;
+  const auto knows = [&name](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const std::vector<std::string>& names = of_volume ? volume_law_names() : law_names();
+  if (!knows(names) && (knows(law_names()) || knows(volume_law_names())))
+    entry.fail(fmt::format("the law '{}' is not one of the invariant '{}'", name, entry.text("invariant")),
+               fmt::format("Take one of {}", fmt::join(names, ", ")));
+  if (!knows(names))
+    entry.fail(fmt::format("\"law\" is '{}'", name), fmt::format("Write one of {}", fmt::join(names, ", ")));
+  if (of_volume) return volume_law(name);
+  return law(name, name == "spline" ? entry.knots() : std::vector<double>{}, term.isotropic());
+}
+
 /// What the invariant asks of the law, and what keys go with which invariant.
 void check(const Entry& entry, const Term& term) {
   const auto goes_with = [&entry](const char* key, bool fits, const char* words) {
@@ -131,22 +166,19 @@ Term read_term(const Json& json, std::size_t position) {
       std::all_of(term.name.begin(), term.name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
   if (!plain)
     entry.fail("the name is not a letter, then letters, digits and '_'", "Give another; parameters begin with it");
-  term.quantity = entry.word("invariant", quantities);
+  term.quantity = entry.word("invariant", all_quantities());
+  term.isochoric = entry.text("invariant").find("bar") != std::string::npos;
   if (term.quantity == Quantity::stretches) {
     if (entry.has("law") && entry.text("law") != "power")
       entry.fail("a term of the principal stretches has no law but 'power'", "Take \"law\" out");
     check(entry, term);
     return term;
   }
-  const std::string law_name = entry.text("law");
-  if (std::find(law_names().begin(), law_names().end(), law_name) == law_names().end())
-    entry.fail(fmt::format("\"law\" is '{}'", law_name), fmt::format("Write one of {}", fmt::join(law_names(), ", ")));
-  const auto knots = law_name == "spline" ? entry.knots() : std::vector<double>{};
-  term.law = law(law_name, knots, term.isotropic());
+  term.law = law_of(entry, term);
   if (term.quantity == Quantity::product) {
     const std::string powers = entry.text("invariant");
-    term.first_power = powers == "I1^2*I2" ? 2 : 1;
-    term.second_power = powers == "I1*I2^2" ? 2 : 1;
+    term.second_power = powers.ends_with("^2") ? 2 : 1;
+    term.first_power = term.second_power == 1 && powers.find('^') != std::string::npos ? 2 : 1;
     // A coefficient of a product is negative as often as not.
     if (term.law.name == "linear")
       term.law.parameters = {{"mu", "kPa", 0, -1e4, 1e4, Scale::linear, "Twice the weight of the product.", ""}};
@@ -164,6 +196,8 @@ Term read_term(const Json& json, std::size_t position) {
 }
 
 }  // namespace
+
+std::vector<std::string> invariant_words() { return words_of(all_quantities()); }
 
 std::vector<Term> read_terms(const std::string& json) {
   const Json list = Json::parse(json, nullptr, false);
@@ -193,9 +227,11 @@ std::string terms_schema() {
   Json term = {{"type", "object"}, {"required", {"name", "invariant"}}, {"additionalProperties", false}};
   term["properties"]["name"] = {
       {"description", "Its parameters begin with it."}, {"type", "string"}, {"pattern", "^[A-Za-z][A-Za-z0-9_]*$"}};
-  term["properties"]["invariant"] = {{"description", "What the term is a function of."},
-                                     {"enum", words_of(quantities)}};
-  term["properties"]["law"] = {{"description", "How the term grows with it."}, {"enum", law_names()}};
+  term["properties"]["invariant"] = {{"description", "What the term is a function of."}, {"enum", invariant_words()}};
+  std::vector<std::string> laws = law_names();
+  for (const std::string& name : volume_law_names())
+    if (std::find(laws.begin(), laws.end(), name) == laws.end()) laws.push_back(name);
+  term["properties"]["law"] = {{"description", "How the term grows with it."}, {"enum", laws}};
   term["properties"]["family"] = {{"description", "Which fibres."}, {"enum", words_of(families)}};
   term["properties"]["dispersion"] = {{"description", "How the fibres scatter about their family."},
                                       {"enum", words_of(dispersions)},

@@ -49,7 +49,8 @@ class TermPart final : public EnergyPart {
         return turn(parameters, value, derivatives);
       case Quantity::fibre:
       case Quantity::stretches:
-      case Quantity::product:  // neither is one part
+      case Quantity::product:
+      case Quantity::volume:  // none is one part
         break;
     }
     fibre(parameters, value, derivatives);

@@ -23,15 +23,15 @@ namespace tunica {
 /// Threads and failure: as Model. Ownership: shares the base, owns the added energy.
 class ModelSum final : public Model {
  public:
-  /// `own` are the parameters of `added` as the mechanism calls them. `added` has principal axes. A null that is not a
-  /// number is never met.
+  /// `own` are the parameters of `added` as the mechanism calls them. The sum has principal axes where both have them.
+  /// A null that is not a number is never met.
   ModelSum(std::shared_ptr<const Model> base, const std::vector<Parameter>& own, double null,
            std::unique_ptr<Model> added)
       : base_(std::move(base)),
         added_(std::move(added)),
         count_(base_->describe().parameters.size()),
         null_(null),
-        description_(described(*base_, own)) {}
+        description_(described(*base_, *added_, own)) {}
 
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
 
@@ -92,8 +92,9 @@ class ModelSum final : public Model {
   }
 
  private:
-  static ModelDescription described(const Model& base, const std::vector<Parameter>& own) {
+  static ModelDescription described(const Model& base, const Model& added, const std::vector<Parameter>& own) {
     ModelDescription description = base.describe();
+    description.principal_axes = description.principal_axes && added.describe().principal_axes;
     description.parameters.insert(description.parameters.end(), own.begin(), own.end());
     description.axis_history_size = 0;  // memory of the base is followed in tensors
     return description;
