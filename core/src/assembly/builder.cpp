@@ -238,6 +238,8 @@ void Builder::add_test(std::size_t number) {
     layout.data_hashes.push_back(fmt::format("{} sha256:{}", file, dataset.sha256[k]));
   }
   auto channels = measured_channels(entry, dataset, observables, test.offset);
+  for (MeasuredChannel& channel : channels)
+    channel.changes_volume = test.test->describe().volume == TestDescription::Volume::free;
   add_blocks(number, dataset, channels);
   layout.prediction_count += test.size();
   std::move(channels.begin(), channels.end(), std::back_inserter(layout.channels));

@@ -67,6 +67,7 @@ struct MeasuredChannel {
   DrawnOver drawn_over;                     ///< the abscissa of this channel, see data/curves.hpp
   std::vector<bool> fitted;                 ///< count; false = held out, or not measured
   std::vector<std::size_t> file_rows = {};  ///< count, data::Dataset::file_rows; empty = in the order of the file
+  bool changes_volume = false;              ///< of a test whose load changes the volume of every material
   double weight = 1;
   std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it
   ChannelNoise sigma = {};           ///< of the fitted rows, stated or not: what everything that needs a noise reads

@@ -37,6 +37,7 @@ std::string place_of(const diagnosis::Place& place) { return place.tests.empty()
 std::string class_of(const Contender& contender) {
   if (contender.sort == "I1") return "a law of the first invariant";
   if (contender.sort == "I2") return "a law of the second invariant";
+  if (contender.sort == "J") return "a law of the volume";
   if (contender.sort == "stretches") return "a law of the principal stretches";
   constexpr std::string_view fibre = "fibre ";
   if (contender.sort.starts_with(fibre)) return contender.sort.substr(fibre.size()) + " fibres";

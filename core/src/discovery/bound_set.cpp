@@ -20,6 +20,7 @@ void set_ranges(const Kind& kind, const std::string& prefix, ParameterSettings& 
     ParameterSetting& setting = settings[prefix + name];
     setting.scale = Scale::linear;
     if (kind.largest > 0) setting.max = kind.largest;
+    if (kind.is_product()) setting.min = 0;
     if (kind.invariant == "stretches") {
       setting.min = kind.negative ? (kind.largest < 0 ? kind.largest : -5000) : 0;
       if (kind.negative) setting.max = 0;

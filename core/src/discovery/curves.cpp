@@ -73,13 +73,11 @@ TermCurve curve_of_term(const Subject& subject, const SetFit& fit, std::size_t w
     }
   } else {
     for (std::size_t i = 0; i < points; ++i)
-      curve.x[i] = kind.reach.high * static_cast<double>(i) / static_cast<double>(points - 1);
-    const std::unique_ptr<Model> model = alone(subject, kind);
-    const EnergyPart& part = *model->parts().front();
-    const std::size_t of_law = part.describe().response_parameters.size();
-    std::vector<double> by(of_law * points);
-    part.respond(own, {curve.x, {}, curve.slope, {}, {}, by});
-    for (std::size_t j = 0; j < of_law; ++j)
+      curve.x[i] =
+          kind.least() + (kind.reach.high - kind.least()) * static_cast<double>(i) / static_cast<double>(points - 1);
+    std::vector<double> by;
+    curve.slope = term_slopes(subject, kind, own, curve.x, &by);
+    for (std::size_t j = 0; j < by.size() / points; ++j)
       for (std::size_t i = 0; i < points; ++i)
         by_parameters(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = by[j * points + i];
   }
@@ -143,7 +141,7 @@ std::vector<SetFit> with_curves(const Fitter& fitter, const SetFit& best, const 
   };
   std::map<std::string, KindPointer> invariants;
   for (const KindPointer& kind : kinds)
-    if (kind->invariant != "stretches") invariants.emplace(kind->invariant_words(), kind);
+    if (kind->may_be_a_curve()) invariants.emplace(kind->invariant_words(), kind);
   std::vector<Job> jobs;
   for (const auto& [words, kind] : invariants) {
     std::vector<KindPointer> rest;

@@ -57,10 +57,11 @@ SpecimenSearch search_one(const diagnosis::Inquiry& inquiry, const diagnosis::An
   inquiry.report("what the data reach", 0.3);
   const States states = reached_states(*subject, evidence.fit.free);
   const Fitter fitter(*subject, evidence);
+  const bool volume = sees_volume(*subject, evidence);
   std::vector<CommonFit> sets_before;
   for (const SetFit& set : before) sets_before.push_back({set.kinds, {set}, set.log_evidence});
   const auto over = [&](bool directions) {
-    return searched_over(analysis, request, fitter, scaled_kinds(fitter, kinds_of(request, states, directions)),
+    return searched_over(analysis, request, fitter, scaled_kinds(fitter, kinds_of(request, states, directions, volume)),
                          sets_before);
   };
   inquiry.report("terms of the energy", 0.4);
@@ -125,6 +126,7 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
 Discovery discover(const experiment::Experiment& experiment, const Request& request,
                    const plugins::Catalogue& catalogue, const diagnosis::Progress& progress) {
   check(request, catalogue);
+  check_volume(request, experiment, catalogue);
   const bool directions = has_directions(experiment, request.model, catalogue);
   experiment::Experiment measured = experiment::measured_only(experiment);
   if (request.from_nothing) measured = with_first_term(std::move(measured), request.model);

@@ -43,7 +43,8 @@ std::optional<SetFit> Fitter::distilled(const SetFit& from, const KindPointer& l
   const std::string words = law->invariant_words();
   std::vector<double> x, slopes(grid_points, 0.0);
   for (std::size_t i = 0; i < grid_points; ++i)
-    x.push_back(law->reach.high * (static_cast<double>(i) + 0.5) / static_cast<double>(grid_points));
+    x.push_back(law->least() +
+                (law->reach.high - law->least()) * (static_cast<double>(i) + 0.5) / static_cast<double>(grid_points));
   std::vector<KindPointer> kinds{law};
   double theta = NAN;
   for (std::size_t k = 0; k < from.kinds.size(); ++k) {

@@ -27,6 +27,7 @@ Shape within(Shape shape, double least, double most) {
 
 /// The parameters of a law over an invariant from 0 to X, within the bounds that `composed` declares.
 std::vector<Shape> shapes_of(const std::string& law, double X) {
+  if (law == "ogden") return {{"beta", -20, 20, Scale::linear, {-4, 4, 10}}};
   if (law == "power") return {{"m", 2, 12, Scale::linear, {2.5, 5}}};
   if (law == "exponential")
     return {within({"b", gentle / X, steep / X, Scale::log, {0.5 / X, 2 / X, 6 / X}}, 1e-3, 100)};
@@ -52,12 +53,20 @@ Shape exponent(const Reach& logarithms, bool negative) {
 
 const std::vector<std::string> of_isotropic{"linear", "quadratic",        "cubic",    "power", "exponential",
                                             "gent",   "inverse_langevin", "logarithm"};
+const std::vector<std::string> of_volume{"quadratic", "power", "exponential_square", "logarithmic", "simo", "ogden"};
+const std::vector<std::string> of_products{"linear"};
 const std::vector<std::string> of_fibres{"quadratic", "cubic", "power", "exponential_square"};
 
 Reach reach_of(const std::string& words, const States& states) {
   if (words == "I1") return reach_of_first(states);
   if (words == "I2") return reach_of_second(states);
   if (words == "stretches") return reach_of_stretches(states);
+  if (words == "J") return reach_of_volume(states);
+  if (words == "I1bar") return reach_of_first(at_constant_volume(states));
+  if (words == "I2bar") return reach_of_second(at_constant_volume(states));
+  if (words == "I1*I2") return reach_of_product(states, 1, 1);
+  if (words == "I1^2*I2") return reach_of_product(states, 2, 1);
+  if (words == "I1*I2^2") return reach_of_product(states, 1, 2);
   static const std::map<std::string, double> along_axes{{"fibre axial", 0}, {"fibre circumferential", 90}};
   if (const auto axis = along_axes.find(words); axis != along_axes.end()) return reach_of_fibre(states, axis->second);
   Reach widest;  // of a family whose angle is not known
@@ -69,14 +78,41 @@ Reach reach_of(const std::string& words, const States& states) {
   return widest;
 }
 
+/// As a part of names of parameters and files: "I1squared_I2" of "I1^2*I2".
+std::string plain(const std::string& invariant) {
+  std::string name;
+  for (const char c : invariant) {
+    if (c == '*')
+      name += '_';
+    else if (c == '^')
+      name += "squared";
+    else if (!name.ends_with("squared"))
+      name += c;
+  }
+  return name;
+}
+
+/// Whether terms of this invariant are looked for where nobody asks.
+bool suits(const std::string& words, bool has_directions, bool sees_volume) {
+  if (words.starts_with("fibre")) return has_directions;
+  if (words == "J" || words.ends_with("bar")) return sees_volume;
+  return words.find('*') == std::string::npos;
+}
+
 Kind kind_of(const std::string& words, const std::string& law, const Reach& reach) {
   const auto blank = words.find(' ');
   Kind kind{words.substr(0, blank), blank == std::string::npos ? "" : words.substr(blank + 1), law, {}};
-  kind.name = fmt::format("{}{}{}_{}", kind.invariant, kind.family.empty() ? "" : "_", kind.family, law);
+  kind.name = fmt::format("{}{}{}_{}", plain(kind.invariant), kind.family.empty() ? "" : "_", kind.family, law);
   kind.reach = reach;
-  kind.shapes = shapes_of(law, reach.high);
+  kind.shapes = shapes_of(law, std::max(reach.high, -kind.least()));
   if (kind.family == "diagonal") kind.shapes.push_back(angle());
   return kind;
+}
+
+const std::vector<std::string>& laws_of(const std::string& words) {
+  if (words.starts_with("fibre")) return of_fibres;
+  if (words == "J") return of_volume;
+  return words.find('*') == std::string::npos ? of_isotropic : of_products;
 }
 
 bool holds(const std::vector<std::string>& words, const std::string& word) {
@@ -89,6 +125,7 @@ std::string Kind::amplitude() const {
   static const std::map<std::string, std::string> names{
       {"quadratic", "k"}, {"cubic", "k"}, {"power", "k"}, {"exponential_square", "k1"}};
   if (invariant == "stretches") return "mu";
+  if (of_volume()) return law == "exponential_square" ? "k1" : "K";
   if (law == "spline") return isotropic() ? "slope" : "c_1";
   const auto found = names.find(law);
   return found == names.end() ? "mu" : found->second;
@@ -105,14 +142,14 @@ Options Kind::options() const {
   return options;
 }
 
-std::vector<Kind> kinds_of(const Request& request, const States& states, bool has_directions) {
+std::vector<Kind> kinds_of(const Request& request, const States& states, bool has_directions, bool sees_volume) {
   std::vector<Kind> kinds;
   for (const std::string& words : experiment::discovery_invariants) {
-    const bool fibres = words.starts_with("fibre");
     if (!holds(request.invariants, words)) continue;
-    if (request.invariants.empty() && fibres && !has_directions) continue;
+    if (request.invariants.empty() && !suits(words, has_directions, sees_volume)) continue;
     const Reach reach = reach_of(words, states);
-    if (std::max(reach.high, words == "stretches" ? -reach.low : 0.0) < least_reach) continue;
+    const bool falls = words == "stretches" || words == "J";
+    if (std::max(reach.high, falls ? -reach.low : 0.0) < least_reach) continue;
     if (words == "stretches") {
       for (const bool negative : {false, true}) {
         if (!holds(request.laws, "power")) continue;
@@ -123,15 +160,15 @@ std::vector<Kind> kinds_of(const Request& request, const States& states, bool ha
         kinds.push_back(std::move(kind));
       }
     } else {
-      for (const std::string& law : fibres ? of_fibres : of_isotropic)
+      for (const std::string& law : laws_of(words))
         if (holds(request.laws, law)) kinds.push_back(kind_of(words, law, reach));
     }
   }
   constexpr double unusual = 0.2;  ///< the prior weight of a law of an invariant that nobody uses it with
   double all = 0;
   const auto weight = [](const Kind& kind) {
-    const bool odd = (kind.invariant == "I1" && kind.law == "logarithm") ||
-                     (kind.invariant == "I2" && kind.law == "inverse_langevin");
+    const bool odd = (kind.invariant.starts_with("I1") && kind.law == "logarithm") ||
+                     (kind.invariant.starts_with("I2") && kind.law == "inverse_langevin");
     return odd ? unusual : 1.0;
   };
   for (const Kind& kind : kinds) all += weight(kind);

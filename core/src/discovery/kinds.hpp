@@ -34,9 +34,15 @@ struct Kind {
   double log_prior = 0;                   ///< ln of its share among all kinds
 
   [[nodiscard]] bool isotropic() const { return invariant != "fibre"; }
+  [[nodiscard]] bool of_volume() const { return invariant == "J"; }
+  [[nodiscard]] bool is_product() const { return invariant.find('*') != std::string::npos; }
+  /// Whether a free curve may stand in its place.
+  [[nodiscard]] bool may_be_a_curve() const { return invariant != "stretches" && !of_volume() && !is_product(); }
+  /// Where its curve begins: J may fall.
+  [[nodiscard]] double least() const { return of_volume() ? reach.low : 0; }
   /// "I2", "fibre diagonal"
   [[nodiscard]] std::string invariant_words() const { return family.empty() ? invariant : invariant + " " + family; }
-  /// Of its amplitude: "mu", "k", "k1", "slope", "c_1".
+  /// Of its amplitude: "mu", "k", "k1", "K", "slope", "c_1".
   [[nodiscard]] std::string amplitude() const;
   /// Options of the mechanism `added_term`.
   [[nodiscard]] Options options() const;
@@ -46,9 +52,10 @@ struct Kind {
 using KindPointer = std::shared_ptr<const Kind>;
 
 /// Every kind that the request asks for and the data reach. Without a list, invariants of fibres take part only where
-/// the base has directions. All have the same prior weight, but for a logarithm of
+/// the base has directions, those of the volume and of the strain at constant volume where the base changes its volume
+/// and the data show it, and products not at all. All have the same prior weight, but for a logarithm of
 /// I1 and chains in I2, which nobody uses.
-std::vector<Kind> kinds_of(const Request& request, const States& states, bool has_directions);
+std::vector<Kind> kinds_of(const Request& request, const States& states, bool has_directions, bool sees_volume = false);
 
 /// A free curve in the place of a law, with so many pieces, over the range that the data reach.
 Kind curve_of(const Kind& kind, std::size_t pieces);

@@ -4,10 +4,12 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "diagnosis/evidence/gross_rows.hpp"
 #include "diagnosis/hypotheses/isotropy.hpp"
+#include "diagnosis/hypotheses/volume.hpp"
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
 
@@ -44,6 +46,30 @@ bool has_directions(const experiment::Experiment& experiment, const std::string&
                     const plugins::Catalogue& catalogue) {
   const experiment::ModelEntry& entry = experiment.model(name);
   return !diagnosis::is_isotropic(*plugins::create(catalogue.models().at(entry.type), entry.options));
+}
+
+namespace {
+
+bool changes_volume(const experiment::Experiment& experiment, const std::string& name,
+                    const plugins::Catalogue& catalogue) {
+  const experiment::ModelEntry& entry = experiment.model(name);
+  return plugins::create(catalogue.models().at(entry.type), entry.options)->describe().compressible;
+}
+
+}  // namespace
+
+void check_volume(const Request& request, const experiment::Experiment& experiment,
+                  const plugins::Catalogue& catalogue) {
+  if (request.from_nothing && changes_volume(experiment, request.model, catalogue))
+    throw InputError(fmt::format(
+        "discovery: from nothing, terms are of materials that keep their volume, and the model '{}' changes "
+        "it. Leave \"from_nothing\" out: terms are then looked for beside the model",
+        request.model));
+}
+
+bool sees_volume(const Subject& subject, const diagnosis::Evidence& evidence) {
+  return changes_volume(subject.experiment, subject.model, subject.catalogue) &&
+         diagnosis::sees_volume(*evidence.base, evidence.experiment, subject.catalogue);
 }
 
 }  // namespace tunica::discovery

@@ -22,6 +22,13 @@ diagnosis::Analysis screened(const diagnosis::Inquiry& inquiry);
 bool has_directions(const experiment::Experiment& experiment, const std::string& name,
                     const plugins::Catalogue& catalogue);
 
+/// Throws InputError where terms would have to be found from nothing for a model that changes its volume.
+void check_volume(const Request& request, const experiment::Experiment& experiment,
+                  const plugins::Catalogue& catalogue);
+
+/// Whether that material changes its volume by itself, and the data show it.
+bool sees_volume(const Subject& subject, const diagnosis::Evidence& evidence);
+
 /// What is searched, with amplitudes that the data can hold.
 std::vector<KindPointer> scaled_kinds(const Fitter& fitter, std::vector<Kind> kinds);
 

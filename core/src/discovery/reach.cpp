@@ -10,6 +10,7 @@
 
 #include "assembly/assembly.hpp"
 #include "numerics/eigenpairs.hpp"
+#include "tunica/detail/free_faces.hpp"
 
 namespace tunica::discovery {
 namespace {
@@ -82,6 +83,12 @@ Reach reach(const States& states, const Value& value) {
   return found;
 }
 
+double first(const std::array<double, 6>& C) { return C[0] + C[1] + C[2] - 3; }
+/// I2 = C_tt C_zz + C_zz C_rr + C_rr C_tt − C_tz² − C_zr² − C_tr²
+double second(const std::array<double, 6>& C) {
+  return C[0] * C[1] + C[1] * C[2] + C[2] * C[0] - C[3] * C[3] - C[4] * C[4] - C[5] * C[5] - 3;
+}
+
 }  // namespace
 
 States reached_states(const Subject& subject, std::span<const double> free) {
@@ -103,15 +110,22 @@ States reached_states(const Subject& subject, std::span<const double> free) {
   return record->converged.empty() ? record->all : record->converged;
 }
 
-Reach reach_of_first(const States& states) {
-  return reach(states, [](const auto& C) { return C[0] + C[1] + C[2] - 3; });
+Reach reach_of_first(const States& states) { return reach(states, first); }
+Reach reach_of_second(const States& states) { return reach(states, second); }
+Reach reach_of_volume(const States& states) {
+  return reach(states, [](const auto& C) { return std::sqrt(free_faces::determinant(C)) - 1; });
+}
+Reach reach_of_product(const States& states, int m, int n) {
+  return reach(states, [=](const auto& C) { return std::pow(first(C), m) * std::pow(second(C), n); });
 }
 
-Reach reach_of_second(const States& states) {
-  // I2 = C_tt C_zz + C_zz C_rr + C_rr C_tt − C_tz² − C_zr² − C_tr²
-  return reach(states, [](const auto& C) {
-    return C[0] * C[1] + C[1] * C[2] + C[2] * C[0] - C[3] * C[3] - C[4] * C[4] - C[5] * C[5] - 3;
-  });
+States at_constant_volume(const States& states) {
+  States all = states;
+  for (auto& C : all) {
+    const double factor = std::pow(free_faces::determinant(C), -1.0 / 3);
+    for (double& component : C) component *= factor;
+  }
+  return all;
 }
 
 Reach reach_of_fibre(const States& states, double angle_from_axial) {

@@ -25,5 +25,10 @@ Reach reach_of_first(const States& states);                           ///< I1 �
 Reach reach_of_second(const States& states);                          ///< I2 − 3
 Reach reach_of_fibre(const States& states, double angle_from_axial);  ///< I4 − 1; angle in degrees
 Reach reach_of_stretches(const States& states);                       ///< ln of the principal stretches
+Reach reach_of_volume(const States& states);                          ///< J − 1
+Reach reach_of_product(const States& states, int m, int n);           ///< (I1 − 3)^m (I2 − 3)^n
+
+/// C̄ = J^(−2/3) C of every state.
+States at_constant_volume(const States& states);
 
 }  // namespace tunica::discovery

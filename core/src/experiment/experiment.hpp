@@ -153,13 +153,23 @@ struct DiagnosisEntry {
 inline const std::vector<std::string> cause_groups{"material", "rig", "file"};
 
 /// What a term may be a function of, as "discovery" names it.
-inline const std::vector<std::string> discovery_invariants{
-    "I1", "I2", "stretches", "fibre axial", "fibre circumferential", "fibre diagonal"};
+inline const std::vector<std::string> discovery_invariants{"I1",
+                                                           "I2",
+                                                           "stretches",
+                                                           "fibre axial",
+                                                           "fibre circumferential",
+                                                           "fibre diagonal",
+                                                           "I1*I2",
+                                                           "I1^2*I2",
+                                                           "I1*I2^2",
+                                                           "I1bar",
+                                                           "I2bar",
+                                                           "J"};
 
 /// How a term may grow, as "discovery" names it: the laws of `composed`.
 inline const std::vector<std::string> discovery_laws{
-    "linear", "quadratic",        "cubic",     "power", "exponential", "exponential_square",
-    "gent",   "inverse_langevin", "logarithm", "spline"};
+    "linear",    "quadratic", "cubic",       "power", "exponential", "exponential_square", "gent", "inverse_langevin",
+    "logarithm", "spline",    "logarithmic", "simo",  "ogden"};
 
 /// The block "discovery"; an absent member leaves the discovery its default.
 struct DiscoveryEntry {

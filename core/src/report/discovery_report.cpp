@@ -39,6 +39,9 @@ std::string abscissa_of(const Json& term) {
   const std::string invariant = word(term, "invariant");
   if (invariant == "fibre") return "I4 − 1 of the " + word(term, "family") + " family";
   if (invariant == "stretches") return "principal stretch";
+  if (invariant == "J") return "J − 1";
+  if (invariant.find('*') != std::string::npos) return "product of the invariants";
+  if (invariant.ends_with("bar")) return invariant.substr(0, invariant.size() - 3) + " − 3 at constant volume";
   return invariant + " − 3";
 }
 

@@ -16,6 +16,7 @@
 #include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/hypotheses/record_errors.hpp"
 #include "diagnosis/hypotheses/signatures.hpp"
+#include "diagnosis/hypotheses/volume.hpp"
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
 
@@ -33,12 +34,6 @@ std::string options_key(const MechanismFactory& mechanism, const MechanismFactor
   return key;
 }
 
-bool changes_volume(const assembly::Assembly& assembly) {
-  for (std::size_t m = 0; m < assembly.models().count(); ++m)
-    if (assembly.models().model(m).describe().compressible) return true;
-  return false;
-}
-
 bool already_there(const std::vector<experiment::MechanismEntry>& entries, const std::string& id) {
   return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.type == id; });
 }
@@ -50,20 +45,6 @@ bool has_field(const assembly::Assembly& base) {
 
 /// Thrown where a mechanism changes the volume and no channel shows it.
 struct VolumeIsNotSeen {};
-
-/// Whether a lateral stretch, a volume or a load that changes it was measured. Beside a stress alone, a change of
-/// volume looks like many errors of a rig.
-bool sees_volume(const assembly::Assembly& base, const Experiment& experiment, const plugins::Catalogue& catalogue) {
-  const auto& channels = base.layout().channels;
-  if (has_field(base)) return true;
-  return std::any_of(channels.begin(), channels.end(), [&](const assembly::MeasuredChannel& channel) {
-    const auto& observables = catalogue.tests().at(experiment.test(channel.test).type).factory.observables;
-    return std::any_of(observables.begin(), observables.end(), [&](const Observable& one) {
-      return one.name == channel.observable &&
-             (one.kind == Observable::Kind::stretch || one.name == "volume_ratio" || one.name == "pressure");
-    });
-  });
-}
 
 class CandidateSearch {
  public:

@@ -67,7 +67,9 @@ CommonSearch search_in(const std::vector<Searching>& specimens, const Request& r
   const auto over = [&](bool directions) {
     std::vector<std::vector<KindPointer>> kinds;
     for (std::size_t s = 0; s < specimens.size(); ++s)
-      kinds.push_back(scaled_kinds(*found.fitters[s], kinds_of(request, states[s], directions)));
+      kinds.push_back(scaled_kinds(
+          *found.fitters[s],
+          kinds_of(request, states[s], directions, sees_volume(*found.subjects[s], specimens[s].analysis.evidence))));
     found.fitter = std::make_unique<const CommonFitter>(fitters, kinds, request.from_nothing);
     return search(*found.fitter, {request.term_limit(), request.most_parameters, &before},
                   [&](const CommonFit& set) { return is_clean(specimens, set); });
@@ -184,6 +186,7 @@ CommonDiscovery discover_together(const std::vector<Member>& members, const Requ
     throw InputError("discovery: there is no specimen to search in. Give the table one row at least");
   CommonDiscovery found{request};
   const diagnosis::Request of_analysis = analysis_request(request);
+  check_volume(request, members.front().experiment, catalogue);
   const bool directions = has_directions(members.front().experiment, request.model, catalogue);
   std::vector<Searching> specimens = analysed(members, request, of_analysis, catalogue, progress, found);
   found.p_before = p_of_alarms(specimens);
