@@ -32,45 +32,74 @@ std::unique_ptr<Test> make(Kind kind) {
                     {.channels = {"stress"}, .measure = measure});
 }
 
-/// W1 and W2 as functions of I1.
-using Slopes = std::function<std::pair<double, double>(double)>;
+/// W1 and W2 as functions of I1 and I2.
+using Slopes = std::function<std::pair<double, double>(double, double)>;
 
 double nominal(Kind kind, double l, const Slopes& slopes) {
   switch (kind) {
     case Kind::uniaxial: {
-      const auto [w1, w2] = slopes(l * l + 2 / l);
+      const auto [w1, w2] = slopes(l * l + 2 / l, 2 * l + 1 / (l * l));
       return 2 * (l - 1 / (l * l)) * (w1 + w2 / l);
     }
     case Kind::equibiaxial: {
-      const auto [w1, w2] = slopes(2 * l * l + std::pow(l, -4));
+      const auto [w1, w2] = slopes(2 * l * l + std::pow(l, -4), std::pow(l, 4) + 2 / (l * l));
       return 2 * (l - std::pow(l, -5)) * (w1 + l * l * w2);
     }
     case Kind::pure_shear:
       break;
   }
-  const auto [w1, w2] = slopes(l * l + 1 + 1 / (l * l));
+  const double both = l * l + 1 + 1 / (l * l);
+  const auto [w1, w2] = slopes(both, both);
   return 2 * (l - std::pow(l, -3)) * (w1 + w2);
 }
 
-void expect_closed_form(const char* type, const std::vector<double>& p, const Slopes& slopes) {
-  const auto model = make_model(type);
+void expect_closed_form(const char* type, const std::vector<double>& p, const Slopes& slopes,
+                        const Options& options = {}, double tolerance = 1e-9) {
+  const auto model = make_model(type, options);
   for (const Kind kind : kinds) {
     const std::vector<double> values = stresses(*make(kind), *model, p);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double expected = nominal(kind, stretches()[i], slopes);
-      EXPECT_NEAR(values[i], expected, 1e-9 * (p[0] + std::abs(expected))) << type << " " << stretches()[i];
+      EXPECT_NEAR(values[i], expected, tolerance * (p[0] + std::abs(expected))) << type << " " << stretches()[i];
     }
   }
 }
 
 TEST(Rubber, InvariantModelsHaveTheirClosedForms) {
-  expect_closed_form("neo_hooke", {390}, [](double) { return std::pair(195., 0.); });
-  expect_closed_form("mooney_rivlin", {160, 25}, [](double) { return std::pair(160., 25.); });
-  expect_closed_form("yeoh", {170, -1.5, 0.03}, [](double i1) {
+  expect_closed_form("neo_hooke", {390}, [](double, double) { return std::pair(195., 0.); });
+  expect_closed_form("mooney_rivlin", {160, 25}, [](double, double) { return std::pair(160., 25.); });
+  expect_closed_form("yeoh", {170, -1.5, 0.03}, [](double i1, double) {
     const double x = i1 - 3;
     return std::pair(170 - 3 * x + 0.09 * x * x, 0.);
   });
-  expect_closed_form("gent", {270, 80}, [](double i1) { return std::pair(135 * 80 / (83 - i1), 0.); });
+  expect_closed_form("gent", {270, 80}, [](double i1, double) { return std::pair(135 * 80 / (83 - i1), 0.); });
+}
+
+// W = Σ c_mn x^m y^n with x = I1 − 3, y = I2 − 3: W1 = Σ m c_mn x^(m−1) y^n, W2 = Σ n c_mn x^m y^(n−1).
+TEST(Rubber, MooneyRivlinOfMoreConstantsHasItsClosedForms) {
+  struct Weight {
+    int m, n;
+    double c;
+  };
+  const std::vector<Weight> three{{1, 0, 160}, {0, 1, 25}, {1, 1, -1.5}};
+  const std::vector<Weight> nine{{1, 0, 160},  {0, 1, 25},     {2, 0, -1.2},  {1, 1, 0.8},   {0, 2, -0.05},
+                                 {3, 0, 0.06}, {2, 1, -0.004}, {1, 2, 0.002}, {0, 3, 0.0004}};
+  const std::vector<Weight> five(nine.begin(), nine.begin() + 5);
+  for (const std::vector<Weight>& weights : {three, five, nine}) {
+    std::vector<double> p;
+    for (const Weight& weight : weights) p.push_back(weight.c);
+    const auto slopes = [&weights](double i1, double i2) {
+      std::pair<double, double> both{0, 0};
+      for (const auto& [m, n, c] : weights) {
+        if (m > 0) both.first += c * m * std::pow(i1 - 3, m - 1) * std::pow(i2 - 3, n);
+        if (n > 0) both.second += c * n * std::pow(i1 - 3, m) * std::pow(i2 - 3, n - 1);
+      }
+      return both;
+    };
+    Options options;
+    options.set("terms", static_cast<std::int64_t>(weights.size()));
+    expect_closed_form("mooney_rivlin", p, slopes, options, 1e-10);
+  }
 }
 
 TEST(Rubber, OgdenHasItsClosedForms) {
