@@ -48,7 +48,7 @@ void print(const comparison::Subject& subject, const comparison::StabilitySummar
 /// Whether the response could be followed anywhere: without, nothing was judged.
 bool any_assessed(const comparison::StabilitySummary& found) {
   const auto reached = [](const auto& followed) {
-    return std::any_of(followed.begin(), followed.end(), [](const auto& path) { return path.to > 1; });
+    return std::any_of(followed.begin(), followed.end(), [](const auto& path) { return path.to != 1; });
   };
   return std::any_of(found.models.begin(), found.models.end(), [&](const auto& model) {
     const auto& strips = model.verdict.transverse;

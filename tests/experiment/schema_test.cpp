@@ -137,6 +137,7 @@ TEST_F(ResultSchema, HoldsTheStabilityOfOneModelOrOfSeveralByName) {
   const json of_model = {{"transverse", json::array()},
                          {"ellipticity", condition},
                          {"drucker", nullptr},
+                         {"free_faces", nullptr},
                          {"inadmissible", json::array()},
                          {"sentences", json::array()}};
   json& stability = sample["/runs/0/best/stability"_json_pointer];

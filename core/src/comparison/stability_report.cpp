@@ -53,15 +53,16 @@ void add_asked(const experiment::RunEntry& run, stability::Domain& domain) {
 /// The least stretch that all paths were followed to; null where one was not at all.
 json reached(const std::vector<stability::PathReach>& followed) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& path : followed) least = std::min(least, path.to);
+  for (const auto& path : followed)
+    if (path.to >= 1) least = std::min(least, path.to);  // a path that is pressed ends below 1
   return std::isfinite(least) && least > 1 ? json(least) : json(nullptr);
 }
 
 json condition(const std::optional<double>& first_lost, const std::string& path,
                const std::vector<stability::PathReach>& followed) {
-  const bool any = std::any_of(followed.begin(), followed.end(), [](const auto& one) { return one.to > 1; });
+  const bool any = std::any_of(followed.begin(), followed.end(), [](const auto& one) { return one.to != 1; });
   json paths = json::object();
-  for (const auto& one : followed) paths[one.path] = one.to > 1 ? json(one.to) : json(nullptr);
+  for (const auto& one : followed) paths[one.path] = one.to != 1 ? json(one.to) : json(nullptr);
   return {{"holds", any ? json(!first_lost.has_value()) : json(nullptr)},
           {"first_lost", first_lost ? json(*first_lost) : json(nullptr)},
           {"path", path},
@@ -85,9 +86,11 @@ json model_json(const StabilitySummary::OfModel& found) {
                           {"checked_to", verdict.checked_to}});
   const auto& ellipticity = found.verdict.ellipticity;
   const auto& drucker = found.verdict.drucker;
+  const auto& faces = found.verdict.free_faces;
   return {{"transverse", std::move(directions)},
           {"ellipticity", condition(ellipticity.first_lost, ellipticity.path, ellipticity.followed)},
           {"drucker", drucker ? condition(drucker->first_lost, drucker->path, drucker->followed) : json(nullptr)},
+          {"free_faces", faces ? condition(faces->first_lost, faces->path, faces->followed) : json(nullptr)},
           {"inadmissible", found.inadmissible},
           {"sentences", found.verdict.sentences()}};
 }

@@ -251,6 +251,7 @@ void warn_of_instability(const RunSummary& run, const std::string& of_model, con
   const auto warn = [&](WarningKind kind, const std::string& sentence) {
     warnings.push_back({kind, of_model + sentence, run.label, {model.name}});
   };
+  const char* const domain = verdict.changes_volume() ? "the stretches that are judged" : "the measured domain";
   for (const auto& strip : verdict.transverse)
     if (strip.stable == false) {
       const bool pulled = strip.first_unstable && *strip.first_unstable < strip.judged_to;
@@ -266,13 +267,15 @@ void warn_of_instability(const RunSummary& run, const std::string& of_model, con
     }
   if (verdict.ellipticity.first_lost)
     warn(WarningKind::ellipticity_lost,
-         fmt::format("ellipticity is lost at stretch {:.4g} in {}, within the measured domain; finite elements will "
-                     "localise there",
-                     *verdict.ellipticity.first_lost, verdict.ellipticity.path));
+         fmt::format("ellipticity is lost at stretch {:.4g} in {}, within {}; finite elements will localise there",
+                     *verdict.ellipticity.first_lost, verdict.ellipticity.path, domain));
+  if (verdict.free_faces && verdict.free_faces->first_lost)
+    warn(WarningKind::free_faces_unstable,
+         fmt::format("the stretches of free faces are not stable at stretch {:.4g} in {}, within {}",
+                     *verdict.free_faces->first_lost, verdict.free_faces->path, domain));
   if (verdict.drucker && verdict.drucker->first_lost)
-    warn(WarningKind::drucker_lost,
-         fmt::format("Drucker's condition is lost at stretch {:.4g} in {}, within the measured domain",
-                     *verdict.drucker->first_lost, verdict.drucker->path));
+    warn(WarningKind::drucker_lost, fmt::format("Drucker's condition is lost at stretch {:.4g} in {}, within {}",
+                                                *verdict.drucker->first_lost, verdict.drucker->path, domain));
   if (!model.inadmissible.empty())
     warn(WarningKind::inadmissible_parameters,
          fmt::format("the parameters are not admissible: {} must not be negative; impose the constraint "

@@ -27,6 +27,7 @@ enum class WarningKind {
   unstable,
   ellipticity_lost,
   drucker_lost,
+  free_faces_unstable,
   inadmissible_parameters,
   at_bound,
   stopped_at_default_bound,
@@ -65,7 +66,7 @@ enum class WarningKind {
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 51> warning_codes{
+inline constexpr text::Codes<WarningKind, 52> warning_codes{
     {{WarningKind::misfit_out_of_scale, "misfit_out_of_scale"},
      {WarningKind::no_misfit, "no_misfit"},
      {WarningKind::noise_contradicted, "noise_contradicted"},
@@ -81,6 +82,7 @@ inline constexpr text::Codes<WarningKind, 51> warning_codes{
      {WarningKind::unstable, "unstable"},
      {WarningKind::ellipticity_lost, "ellipticity_lost"},
      {WarningKind::drucker_lost, "drucker_lost"},
+     {WarningKind::free_faces_unstable, "free_faces_unstable"},
      {WarningKind::inadmissible_parameters, "inadmissible_parameters"},
      {WarningKind::at_bound, "at_bound"},
      {WarningKind::stopped_at_default_bound, "stopped_at_default_bound"},

@@ -2,6 +2,8 @@
 #include "stability/admissibility.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -49,20 +51,41 @@ std::string words(const TransverseVerdict& verdict, const Domain& domain) {
   return fmt::format("{}stable ({}); beyond that domain {}", name, range, growth);
 }
 
-/// "up to stretch 1.5 in strips, equibiaxial extension and pure shear", or path by path where one ends before; empty
-/// where none could be followed at all.
-std::string followed_in_words(const std::vector<PathReach>& followed, double limit) {
+/// `all_of_them` where every path was followed to its end, else path by path; empty where none could be followed at
+/// all.
+std::string followed_in_words(const std::vector<PathReach>& followed, const std::function<bool(const PathReach&)>& ends,
+                              const std::string& all_of_them) {
   std::vector<std::string> words;
   bool any = false, all = true;
   for (const PathReach& path : followed) {
-    any = any || path.to > 1;
-    all = all && path.to > limit * (1 - 1e-9);
-    words.push_back(path.to > 1 ? fmt::format("{} to {:.4g}", path.path, path.to)
-                                : fmt::format("{} not at all", path.path));
+    any = any || path.to != 1;
+    all = all && ends(path);
+    words.push_back(path.to != 1 ? fmt::format("{} to {:.4g}", path.path, path.to)
+                                 : fmt::format("{} not at all", path.path));
   }
   if (!any) return "";
-  if (all) return fmt::format("up to stretch {:.4g} in strips, equibiaxial extension and pure shear", limit);
+  if (all) return all_of_them;
   return fmt::format("as far as the response can be followed: {}", fmt::join(words, "; "));
+}
+
+std::string followed_in_words(const std::vector<PathReach>& followed, double limit) {
+  return followed_in_words(
+      followed, [limit](const PathReach& path) { return path.to > limit * (1 - 1e-9); },
+      fmt::format("up to stretch {:.4g} in strips, equibiaxial extension and pure shear", limit));
+}
+/// Of a material that changes its volume.
+std::string followed_in_words(const std::vector<PathReach>& followed, double least, double limit) {
+  const auto is_of_volume = [](const PathReach& path) {
+    return path.path == "expansion" || path.path == "contraction";
+  };
+  const auto ends = [&](const PathReach& path) {
+    const double reached = std::pow(path.to, is_of_volume(path) ? 3 : 1);
+    return reached > limit * (1 - 1e-9) || reached < least * (1 + 1e-9);
+  };
+  const bool volumes = std::any_of(followed.begin(), followed.end(), is_of_volume);
+  return followed_in_words(followed, ends,
+                           fmt::format("from stretch {0:.4g} to {1:.4g} in strips and sheets{2}", least, limit,
+                                       volumes ? fmt::format(", and from volume {:.4g} to {:.4g}", least, limit) : ""));
 }
 
 std::string components(const std::array<double, 3>& v) {
@@ -70,6 +93,14 @@ std::string components(const std::array<double, 3>& v) {
 }
 
 }  // namespace
+
+double Domain::least() const {
+  double pressed = 1;
+  for (const auto* of : {&strips, &asked})
+    for (const std::vector<double>& stretches : *of)
+      for (const double stretch : stretches) pressed = std::min(pressed, stretch);
+  return pressed < 1 ? pressed : 1 / largest;
+}
 
 std::optional<bool> Admissibility::transversely_stable() const {
   bool any = false, open = false;
@@ -82,13 +113,15 @@ std::optional<bool> Admissibility::transversely_stable() const {
 }
 
 std::vector<std::string> Admissibility::sentences() const {
-  if (changes_volume)
-    return {
-        "NOT ASSESSED: the material changes its volume, and transverse stability, ellipticity and Drucker's "
-        "condition are those of incompressible materials"};
   std::vector<std::string> all;
+  const auto followed_in = [&](const std::vector<PathReach>& followed) {
+    return changes_volume() ? followed_in_words(followed, domain.least(), domain.largest)
+                            : followed_in_words(followed, domain.largest);
+  };
+  if (changes_volume())
+    all.emplace_back("transverse stability is of materials that keep their volume, and is not asked for");
   for (const TransverseVerdict& verdict : transverse) all.push_back(words(verdict, domain));
-  const std::string elliptic = followed_in_words(ellipticity.followed, domain.largest);
+  const std::string elliptic = followed_in(ellipticity.followed);
   if (ellipticity.first_lost)
     all.push_back(
         fmt::format("ELLIPTICITY IS LOST at stretch {:.4g} in {}: bands of normal {} would shear along {} "
@@ -99,8 +132,19 @@ std::vector<std::string> Admissibility::sentences() const {
   else
     all.push_back(
         fmt::format("elliptic {}; weakest, {:.3g} kPa, in {}", elliptic, ellipticity.weakest, ellipticity.path));
+  if (free_faces) {
+    const std::string minimal = followed_in(free_faces->followed);
+    if (free_faces->first_lost)
+      all.push_back(fmt::format(
+          "FREE FACES ARE NOT STABLE at stretch {:.4g} in {}: the energy has no minimum over their stretches",
+          *free_faces->first_lost, free_faces->path));
+    else if (minimal.empty())
+      all.push_back("free faces NOT ASSESSED: the response cannot be evaluated on any path");
+    else
+      all.push_back("free faces stable " + minimal);
+  }
   if (!drucker) return all;
-  const std::string stable = followed_in_words(drucker->followed, domain.largest);
+  const std::string stable = followed_in(drucker->followed);
   if (drucker->first_lost)
     all.push_back(
         fmt::format("DRUCKER'S CONDITION IS LOST at stretch {:.4g} in {}", *drucker->first_lost, drucker->path));
@@ -119,7 +163,10 @@ Admissibility judge_admissibility(const Model& model, std::span<const double> pa
       const Model& bare = model.incompressible();
       return judge_admissibility(bare, parameters.first(bare.describe().parameters.size()), domain);
     }
-    found.changes_volume = true;
+    CompressibleVerdict verdict = judge_compressible(model, parameters, domain.least(), domain.largest);
+    found.ellipticity = std::move(verdict.ellipticity);
+    found.free_faces = std::move(verdict.free_faces);
+    found.drucker = std::move(verdict.drucker);
     return found;
   }
   for (std::size_t axis = 0; axis < 2; ++axis) {

@@ -8,6 +8,7 @@
 
 #include "stability/drucker.hpp"
 #include "stability/ellipticity.hpp"
+#include "stability/free_stability.hpp"
 #include "stability/transverse.hpp"
 
 namespace tunica::stability {
@@ -18,6 +19,9 @@ struct Domain {
   std::array<std::vector<double>, 2> asked = {};  ///< stated by a person: in a constraint, on the command line
   double largest = 1.5;                           ///< of any test, for ellipticity and Drucker
   double beyond = 10;                             ///< transverse stability is followed so far
+
+  /// The least stretch that was measured or asked for; where no strip was pressed, 1/largest.
+  [[nodiscard]] double least() const;
 };
 
 /// Whether a parameter set behaves as a material: what every report says of its best point.
@@ -26,8 +30,10 @@ struct Admissibility {
   EllipticityVerdict ellipticity;
   std::optional<DruckerVerdict> drucker;  ///< isotropic models
   Domain domain;
-  bool changes_volume = false;  ///< of a compressible material nothing of the above is assessed
+  /// Of a material that changes its volume, which has no transverse verdict.
+  std::optional<FreeFaceVerdict> free_faces = {};
 
+  [[nodiscard]] bool changes_volume() const { return free_faces.has_value(); }
   /// λ3 falls at every stretch that was measured or asked for; none where there is none, or no answer at one of them.
   [[nodiscard]] std::optional<bool> transversely_stable() const;
   /// One sentence a finding, what is lost first.

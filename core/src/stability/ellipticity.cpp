@@ -62,9 +62,13 @@ struct Weakest {
   Eigen::Vector3d n = Eigen::Vector3d::Zero(), m = Eigen::Vector3d::Zero();
 };
 
-/// Over all directions; none where the response is not finite.
-std::optional<Weakest> weakest_at(const Model& model, std::span<const double> parameters, const Deformation& at) {
-  static const Directions spread = spread_directions();
+/// Stress F S Fᵀ and stiffness 2 ∂S/∂C, pushed forward by a diagonal F; none where the model has no answer.
+struct Forward {
+  Eigen::Matrix<double, 6, 1> stress;
+  Eigen::Matrix<double, 6, 6> stiffness;
+};
+
+std::optional<Forward> pushed_forward(const Model& model, std::span<const double> parameters, const Deformation& at) {
   std::array<double, 6> C{}, S;
   std::array<double, 36> tangent;
   const auto& F = at.stretch;
@@ -74,13 +78,24 @@ std::optional<Weakest> weakest_at(const Model& model, std::span<const double> pa
   std::array<double, 6> forward;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = i; k < 3; ++k) forward[position[i][k]] = F[i] * F[k];
-  Eigen::Matrix<double, 6, 1> stress;
-  Eigen::Matrix<double, 6, 6> stiffness;
+  Forward found;
   for (std::size_t p = 0; p < 6; ++p) {
-    stress[static_cast<int>(p)] = forward[p] * S[p];
+    found.stress[static_cast<int>(p)] = forward[p] * S[p];
     for (std::size_t q = 0; q < 6; ++q)
-      stiffness(static_cast<int>(p), static_cast<int>(q)) = forward[p] * forward[q] * tangent[6 * p + q];
+      found.stiffness(static_cast<int>(p), static_cast<int>(q)) = forward[p] * forward[q] * tangent[6 * p + q];
   }
+  return found;
+}
+
+const Directions& all_directions() {
+  static const Directions spread = spread_directions();
+  return spread;
+}
+
+/// Over m normal to n, for all directions n; none where the response is not finite.
+std::optional<Weakest> weakest_in_planes(const Forward& at) {
+  const Directions& spread = all_directions();
+  const auto& [stress, stiffness] = at;
   // In the plane normal to n, e_a·Q(n) e_b = (n·σ n) δ_ab + (e_a ⊗ n) : c : (e_b ⊗ n).
   const Directions::Table first = spread.first * stiffness, second = spread.second * stiffness;
   const Eigen::ArrayXd along = spread.normal * stress;
@@ -101,12 +116,63 @@ std::optional<Weakest> weakest_at(const Model& model, std::span<const double> pa
   return Weakest{least[weakest], n, eigen.eigenvectors()(0, 0) * e1 + eigen.eigenvectors()(1, 0) * e2};
 }
 
+/// Over all m: the least eigenvalue of Q(n), Q_ij = (n·σ n) δ_ij + (e_i ⊗ n) : c : (e_j ⊗ n).
+Weakest weakest_along(const Forward& at, const Eigen::Vector3d& n) {
+  Eigen::Matrix<double, 3, 6> rows;
+  for (int i = 0; i < 3; ++i) rows.row(i) = row_of(Eigen::Vector3d::Unit(i), n);
+  Eigen::Matrix3d Q = rows * at.stiffness * rows.transpose();
+  Q.diagonal().array() += row_of(n, n).dot(at.stress.transpose());
+  if (!Q.allFinite()) return {std::numeric_limits<double>::quiet_NaN(), n, n};
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(Q);
+  return {eigen.eigenvalues()[0], n, eigen.eigenvectors().col(0)};
+}
+
+/// The same over all n; the weakest one is refined by steps that are halved.
+std::optional<Weakest> weakest_anywhere(const Forward& at) {
+  Weakest weakest;
+  for (const auto& frame : all_directions().frames) {
+    const Weakest here = weakest_along(at, frame[0]);
+    if (!std::isfinite(here.value)) return std::nullopt;
+    if (here.value < weakest.value) weakest = here;
+  }
+  constexpr int most_steps = 100;
+  double step = 0.1;
+  for (int k = 0; k < most_steps && step > 1e-6; ++k) {
+    const Eigen::Vector3d n = weakest.n, e1 = n.unitOrthogonal(), e2 = n.cross(e1);
+    const double before = weakest.value;
+    for (const Eigen::Vector3d& turn : {e1, e2, Eigen::Vector3d(-e1), Eigen::Vector3d(-e2)}) {
+      const Weakest here = weakest_along(at, (n + step * turn).normalized());
+      if (here.value < weakest.value) weakest = here;
+    }
+    if (!(weakest.value < before)) step /= 2;
+  }
+  return weakest;
+}
+
+std::optional<Weakest> weakest_at(const Model& model, std::span<const double> parameters, const Deformation& at) {
+  const std::optional<Forward> forward = pushed_forward(model, parameters, at);
+  if (!forward) return std::nullopt;
+  return model.describe().compressible ? weakest_anywhere(*forward) : weakest_in_planes(*forward);
+}
+
+void set_wave(const Weakest& wave, EllipticityVerdict& verdict) {
+  for (int a = 0; a < 3; ++a) {
+    verdict.n[static_cast<std::size_t>(a)] = wave.n[a];
+    verdict.m[static_cast<std::size_t>(a)] = wave.m[a];
+  }
+}
+
 }  // namespace
 
 std::optional<double> least_wave_stiffness(const Model& model, std::span<const double> parameters,
                                            const std::array<double, 3>& stretches) {
   const std::optional<Weakest> found = weakest_at(model, parameters, {stretches, 0});
   return found ? std::optional(found->value) : std::nullopt;
+}
+
+void set_weakest_wave(const Model& model, std::span<const double> parameters, const Deformation& at,
+                      EllipticityVerdict& verdict) {
+  if (const std::optional<Weakest> found = weakest_at(model, parameters, at)) set_wave(*found, verdict);
 }
 
 std::vector<Path> homogeneous_paths(const Model& model, std::span<const double> parameters, double limit) {
@@ -151,10 +217,7 @@ EllipticityVerdict judge_ellipticity(const Model& model, std::span<const double>
       const bool lost = here->value <= 0 && (!verdict.first_lost || at.along < *verdict.first_lost);
       if (lost || (!verdict.first_lost && here->value < verdict.weakest)) {
         verdict.path = path.name;
-        for (int a = 0; a < 3; ++a) {
-          verdict.n[static_cast<std::size_t>(a)] = here->n[a];
-          verdict.m[static_cast<std::size_t>(a)] = here->m[a];
-        }
+        set_wave(*here, verdict);
       }
       if (lost) verdict.first_lost = at.along;
       verdict.weakest = std::min(verdict.weakest, here->value);

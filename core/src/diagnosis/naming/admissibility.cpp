@@ -28,7 +28,9 @@ Admissibility admissibility_at(const assembly::Assembly& assembly, std::span<con
     const auto verdict = stability::judge_admissibility(
         assembly.models().model(m), assembly.models().parameters(m, free), comparison::domain_of(assembly, m));
     const auto transverse = verdict.transversely_stable();
-    const bool elliptic = !verdict.ellipticity.first_lost;
+    // A material that changes its volume is judged over states that nobody measured, so that it is told and not
+    // weighed.
+    const bool elliptic = verdict.changes_volume() || !verdict.ellipticity.first_lost;
     if (transverse == false)
       for (const auto& strip : verdict.transverse) {
         if (strip.stable != false) continue;
