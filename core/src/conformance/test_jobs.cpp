@@ -16,6 +16,13 @@
 namespace tunica::conformance {
 namespace {
 
+using Volume = TestDescription::Volume;
+
+const Material& foam() {
+  static const Material material{"a compressible rubber", compressible_rubber(), {30}};
+  return material;
+}
+
 /// The simulations that a property is checked with: other materials, and imperfections that are there.
 std::vector<Simulation> simulations(const TestCase& test_case) {
   std::vector<const Model*> layers;
@@ -30,9 +37,22 @@ std::vector<Simulation> simulations(const TestCase& test_case) {
     all.push_back({*test_case.test, *test_case.material.model, test_case.material.parameters, moved, layers});
   if (test_case.from) {
     static const Material other = materials().back();
-    all.push_back({*test_case.test, *other.model, other.parameters, test_case.own, {}});
+    if (description.volume != Volume::free)
+      all.push_back({*test_case.test, *other.model, other.parameters, test_case.own, {}});
+    if (description.volume == Volume::either)
+      all.push_back({*test_case.test, *foam().model, foam().parameters, test_case.own, {}});
   }
   return all;
+}
+
+/// A test that says it carries both kinds of material simulates one that changes its volume.
+Verdict carries_compressible_materials(const TestCase& test_case) {
+  const std::string compared = "a compressible rubber with a prediction";
+  const Prediction found = predict(*test_case.test, {*foam().model, foam().parameters, test_case.own});
+  if (!found.status.ok())
+    return broken(compared, fmt::format("the test says that it carries materials of any volume, and of this one: {}",
+                                        found.status.reason()));
+  return {.compared = compared};
 }
 
 /// The worst of the verdicts.
@@ -172,6 +192,10 @@ Jobs test_jobs(const std::string& type, const CheckContext& context) {
         });
       });
     }
+    const TestDescription& description = test_case->test->describe();
+    if (test_case->from && description.volume == Volume::either && !description.costly)
+      add(jobs, head, "carries_compressible_materials",
+          [test_case] { return carries_compressible_materials(*test_case); });
     for (const TestProperty& property : test_properties()) {
       head.property = property.name;
       head.advisory = property.advisory;
