@@ -29,6 +29,13 @@ def fibres(C, mu, k1, k2, theta):
     return energy
 
 
+# 2μ/α² [Σ λ^α − 3 + (J^(−αβ) − 1)/β] with α = 2 and β = ν/(1 − 2ν), which hyperfoam has too.
+@tunica.model("py_foam", {"mu": ("kPa", 20, 1, 1e3), "nu": ("1", 0.2, -0.4, 0.45)}, compressible=True)
+def foam(C, mu, nu):
+    beta = nu / (1 - 2 * nu)
+    return mu / 2 * (C.I1 - 3 + (C.J ** (-2 * beta) - 1) / beta)
+
+
 class Definitions(Case):
     def test_ten_lines_of_python_fit_treloar(self):
         built_in = tunica.run(of_treloar({"type": "neo_hooke"}), self.folder / "a", base=TRELOAR)
@@ -150,3 +157,28 @@ class Definitions(Case):
         self.assertFalse(numpy.allclose(found[0][0], found[0][1]), "nothing relaxes")
         with self.assertRaises(tunica.InputError):
             tunica.Material({"type": "py_neo_hooke", "mechanisms": [{"type": "matrix_stiffening"}]})
+
+    def test_an_energy_may_let_the_volume_change(self):
+        mine = tunica.Material("py_foam", mu=25.0, nu=0.18)
+        theirs = tunica.Material("hyperfoam", mu_1=25.0, alpha_1=2.0, nu=0.18)
+        F = numpy.eye(3) + 0.2 * numpy.random.default_rng(5).uniform(-1, 1, (20, 3, 3))
+        for method in ("stress", "tangent"):
+            numpy.testing.assert_allclose(getattr(mine, method)(F=F), getattr(theirs, method)(F=F), rtol=1e-10,
+                                          atol=1e-10, err_msg=method)
+        numpy.testing.assert_allclose(mine.stress(F=numpy.eye(3)[None]), 0, atol=1e-13)
+        values = {"stretch": [0.6, 0.8, 1.0, 1.3], "stress": [-60.0, -15.0, 0.0, 20.0],
+                  "lateral": [1.1, 1.04, 1.0, 0.95]}
+        rows = "stretch,stress [kPa],lateral\n" + "".join(
+            f"{a},{b},{c}\n" for a, b, c in zip(*values.values()))
+        (self.folder / "strip.csv").write_text(rows)
+        found = []
+        for kind in ({"type": "py_foam"}, {"type": "hyperfoam", "parameters": {"alpha_1": {"fixed": 2}}}):
+            experiment = {"format": 1, "name": "foam", "models": {"foam": kind}, "objective": "least_squares",
+                          "tests": {"strip": {"type": "uniaxial", "direction": "axial", "data": {
+                              "file": "strip.csv", "noise": {"stress": {"absolute": "1 kPa"},
+                                                             "transverse_stretch": {"absolute": 0.01}},
+                              "columns": {"stretch": "stretch", "stress": "stress",
+                                          "transverse_stretch": "lateral"}}}},
+                          "optimizers": {"lm": {"type": "ceres_lm"}}, "runs": [{"model": "foam", "optimizer": "lm"}]}
+            found.append(tunica.Problem(experiment, base=self.folder).jacobian([25.0, 0.18]))
+        numpy.testing.assert_allclose(*found, rtol=1e-8, atol=1e-8)

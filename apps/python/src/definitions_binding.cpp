@@ -25,12 +25,14 @@ void fill_in(Factory& factory, const py::dict& declared) {
   factory.options = options_from(declared["options"], owner_of(factory.type));
 }
 
+/// A mechanism declares no "compressible".
 ModelDescription model_description(const py::dict& declared, const std::string& type) {
   ModelDescription description;
   description.type = type;
   description.parameters = parameters_from(declared["parameters"], owner_of(type));
   description.principal_axes = declared["principal_axes"].cast<bool>();
   description.energy_derivatives = description.principal_axes;
+  if (declared.contains("compressible")) description.compressible = declared["compressible"].cast<bool>();
   return description;
 }
 

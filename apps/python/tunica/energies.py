@@ -33,9 +33,14 @@ class Strain:
 
     @property
     def I3(self):
-        """det C; tests keep it at 1."""
+        """det C; of a model that is not compressible, tests keep it at 1."""
         a, b, c, d, e, f = self._components
         return a * (b * c - e * e) - d * (d * c - e * f) + f * (d * e - b * f)
+
+    @property
+    def J(self):
+        """√det C, the volume ratio."""
+        return numpy.sqrt(self.I3)
 
     def along(self, degrees):
         """a·C a, the squared stretch of fibres in the plane of the wall, with their angle in degrees from the axial
@@ -90,7 +95,7 @@ class Energy:
         return found
 
 
-def model(name, parameters, *, options=None, doc="", reference="", principal_axes=True):
+def model(name, parameters, *, options=None, doc="", reference="", principal_axes=True, compressible=False):
     """Defines a model by its energy per reference volume, a function of a Strain and the parameters, written with
     + - * / ** and numpy's functions. All derivatives follow from it, exactly.
 
@@ -100,13 +105,14 @@ def model(name, parameters, *, options=None, doc="", reference="", principal_axe
 
     Options are keywords of the function; of a class they are those of __init__, and its method `energy` is the
     function. Set principal_axes=False where stress and strain do not share their axes, as with a single oblique family
-    of fibres. A definition replaces an earlier one of the same name. What the function raises is a failed evaluation,
+    of fibres. With compressible=True the volume may change: 2 ∂W/∂C is then the whole stress, which has to vanish at rest,
+    and C.J is the volume ratio. A definition replaces an earlier one of the same name. What the function raises is a failed evaluation,
     whose reason is the last line of the traceback.
     """
     def define(definition):
         _core.define_model(library(), {
             **head(name, definition, doc, reference, options), "parameters": parameters_of(parameters),
-            "principal_axes": principal_axes,
+            "principal_axes": principal_axes, "compressible": compressible,
             "make": lambda **given: Energy(method_of(definition, given, "energy"))})
         return definition
     return define
