@@ -21,6 +21,31 @@ TEST(External, ParametersAreFoundThroughAProgramOfFiles) {
   EXPECT_TRUE(std::filesystem::is_empty(bench.folder.path() / "scratch"));
 }
 
+// mu = 100 kPa and a compliance of 0.004/kPa, K = 250 kPa: C10 = 0.05 MPa, D1 = 2/K = 8/MPa on the card that the solver
+// reads. With full invariants no card has the material.
+TEST(External, TheCardHasTheFittedCompressibility) {
+  const trial::Folder seen;
+  const std::string copy = (seen.path() / "card.inp").string();
+  trial::SolverBench bench(310, 12, "cp card.inp " + copy);
+  bench.folder.write("card.in", "{{card}}");
+  bench.test["templates"]["card.inp"] = "card.in";
+  bench.folder.write("input.in", "mu_MPa=0.3\nJm=12\n");
+  bench.test["card"] = {{"program", "abaqus"}, {"units", "mm-N-MPa"}, {"material", "PAD"}};
+  bench.experiment["models"]["gent"] = {{"type", "neo_hooke"}, {"parameters", {{"mu", {{"initial", 100}}}}}};
+  bench.experiment["models"]["gent"]["mechanisms"] = {{{"type", "compressibility"},
+                                                       {"invariants", "isochoric"},
+                                                       {"law", "quadratic"},
+                                                       {"parameters", {{"compliance", {{"initial", 0.004}}}}}}};
+  const auto ended = bench.tunica({"simulate", "experiment.json", "-o", "out"});
+  ASSERT_EQ(ended.code, 0) << ended.err << ended.out;
+  const std::string card = trial::text_of(copy);
+  EXPECT_THAT(card, AllOf(HasSubstr("*MATERIAL, NAME=PAD"), HasSubstr("*HYPERELASTIC, NEO HOOKE\n0.05, 8\n")));
+  bench.experiment["models"]["gent"]["mechanisms"][0]["invariants"] = "full";
+  const auto refused = bench.tunica({"simulate", "experiment.json", "-o", "other"});
+  EXPECT_NE(refused.code, 0);
+  EXPECT_THAT(refused.err + refused.out, HasSubstr("the model has mechanisms, compressibility"));
+}
+
 TEST(External, UpdatesSaveRunsAndDifferencesAgree) {
   trial::SolverBench bench;
   ASSERT_EQ(bench.run("broyden").code, 0);

@@ -128,19 +128,34 @@ void refuse_other_tests(const experiment::TestEntry& entry, const Layer& layer, 
 /// TestSetup::card for a model of the experiment.
 auto card_writer(const experiment::ModelEntry& entry) {
   std::string mechanisms;
-  for (const MechanismEntry& mechanism : entry.mechanisms)
-    mechanisms += (mechanisms.empty() ? "" : ", ") + mechanism.name();
   cards::Material material{entry.type, {}};
+  bool changes_volume = false;
+  for (const MechanismEntry& mechanism : entry.mechanisms) {
+    const auto word = [&](const char* option, const char* usual) {
+      return mechanism.options.has(option) ? mechanism.options.text(option) : usual;
+    };
+    changes_volume = mechanism.type == "compressibility" && word("invariants", "full") == "isochoric";
+    if (changes_volume)
+      material.volume_law = word("law", "logarithmic");
+    else
+      mechanisms += (mechanisms.empty() ? "" : ", ") + mechanism.name();
+  }
   if (entry.options.has("fibre_switch")) material.fibre_switch = entry.options.text("fibre_switch");
-  return [material, mechanisms](const Model& model, std::span<const double> values, const CardRequest& request) {
+  return [material, mechanisms, changes_volume](const Model& model, std::span<const double> values,
+                                                const CardRequest& request) {
     if (!mechanisms.empty())
       throw InputError(
-          fmt::format("the model has mechanisms, {}, and no material card has them; take them out, or "
-                      "write its parameters by name",
+          fmt::format("the model has mechanisms, {}, and no material card has them, but for \"compressibility\" with "
+                      "\"invariants\": \"isochoric\"; take them out, or write its parameters by name",
                       mechanisms));
     cards::Material filled = material;
     const auto& parameters = model.describe().parameters;
     for (std::size_t j = 0; j < parameters.size(); ++j) filled.values[parameters[j].name] = values[j];
+    if (changes_volume) {
+      const double compliance = values[parameters.size() - 1];
+      filled.values.erase(parameters.back().name);
+      filled.bulk = compliance > 0 ? 1 / compliance : 0;
+    }
     return cards::write_card(cards::target_of(request.program), filled,
                              {.name = request.material, .units = cards::unit_system(request.units)});
   };
