@@ -11,28 +11,21 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
+#include "tunica/detail/free_faces.hpp"
 #include "tunica/model.hpp"
 #include "tunica/models/autodiff.hpp"
 
 /// Tensors for PrincipalStretches.
 namespace tunica::principal_stretches {
 
-using Tensor = std::array<double, 6>;  ///< tt, zz, rr, tz, zr, tr
-
-/// n_a ⊗ n_b, symmetrised.
-inline Tensor dyad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return {a[0] * b[0],
-          a[1] * b[1],
-          a[2] * b[2],
-          0.5 * (a[0] * b[1] + a[1] * b[0]),
-          0.5 * (a[1] * b[2] + a[2] * b[1]),
-          0.5 * (a[2] * b[0] + a[0] * b[2])};
-}
+using Tensor = free_faces::Tensor;  ///< tt, zz, rr, tz, zr, tr
+using Vector = free_faces::VectorOf<double>;
+using free_faces::dyad;
 
 /// C = Σ_a c_a n_a ⊗ n_a; not-a-number throughout where C is no finite tensor.
 struct Spectrum {
-  std::array<double, 3> c;           ///< squared stretches, rising
-  std::array<Eigen::Vector3d, 3> n;  ///< unit vectors of their directions
+  std::array<double, 3> c;  ///< squared stretches, rising
+  std::array<Vector, 3> n;  ///< unit vectors of their directions
 
   /// By the iterative solver: the closed form loses half the digits where stretches are close.
   explicit Spectrum(const Tensor& C) {
@@ -40,13 +33,13 @@ struct Spectrum {
     matrix << C[0], C[3], C[5], C[3], C[1], C[4], C[5], C[4], C[2];
     if (!matrix.allFinite()) {
       c.fill(std::numeric_limits<double>::quiet_NaN());
-      n.fill(Eigen::Vector3d::Constant(c[0]));
+      n.fill({c[0], c[0], c[0]});
       return;
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
     for (int a = 0; a < 3; ++a) {
       c[a] = solver.eigenvalues()[a];
-      n[a] = solver.eigenvectors().col(a);
+      for (int i = 0; i < 3; ++i) n[a][i] = solver.eigenvectors()(i, a);
     }
   }
 };
