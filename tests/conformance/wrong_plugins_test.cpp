@@ -77,7 +77,8 @@ TEST(WrongModel, WithDeviatoricStressAtRestIsNamed) {
 
 TEST(WrongModel, ThatIsCompressibleAndSwellsAtRestIsNamed) {
   EXPECT_EQ(failed("wrong_volume", "swelling"), Names{"deviatoric_stress_vanishes_at_rest"});
-  EXPECT_THAT(words("wrong_volume", "swelling", "deviatoric_stress_vanishes_at_rest"), HasSubstr(" S_tt = "));
+  EXPECT_THAT(words("wrong_volume", "swelling", "deviatoric_stress_vanishes_at_rest"),
+              ::testing::StartsWith("S_tt = "));
 }
 
 TEST(WrongTest, ThatSaysItCarriesEveryVolumeAndDoesNotIsNamed) {

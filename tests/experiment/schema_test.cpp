@@ -134,12 +134,8 @@ TEST_F(ResultSchema, AcceptsTheSample) { EXPECT_TRUE(accepts(sample)); }
 TEST_F(ResultSchema, HoldsTheStabilityOfOneModelOrOfSeveralByName) {
   const json condition = {
       {"holds", true}, {"first_lost", nullptr}, {"path", "a strip"}, {"checked_to", 1.5}, {"paths", json::object()}};
-  const json of_model = {{"transverse", json::array()},
-                         {"ellipticity", condition},
-                         {"drucker", nullptr},
-                         {"free_faces", nullptr},
-                         {"inadmissible", json::array()},
-                         {"sentences", json::array()}};
+  const json of_model = {{"transverse", json::array()}, {"ellipticity", condition},      {"drucker", nullptr},
+                         {"free_faces", nullptr},       {"inadmissible", json::array()}, {"sentences", json::array()}};
   json& stability = sample["/runs/0/best/stability"_json_pointer];
   const json common = {{"imposed", nullptr}, {"ratio_to_free", nullptr}};
   stability = common;

@@ -40,11 +40,16 @@ class Pages(Case):
             with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()):
                 exec(compile(piece, "docs/python.md", "exec"), session)
             printed.append(out.getvalue())
-        self.assertEqual(7, len(shown))
+        self.assertEqual(8, len(shown))
         self.assertEqual(5, len(shown[0].splitlines()), "the example of the README in five lines")
         self.assertRegex(printed[0], r"^gho/(lm|es) \{'mu': ")
         self.assertRegex(printed[1], r"^\{'c10': ")
         self.assertAlmostEqual(1, session["result"].parameters["mu"] / 404.37141701523916, 8)
+        # μ/2 (I1 − 3 − 2 ln J) + K/2 ln²J: nothing at rest, and K ln J/c beside μ (1 − 1/c) in a body of C = c 1.
+        foam, stretch = tunica.Material("my_foam", mu=20.0, K=50.0), numpy.array([1.0, 1.1])
+        found = foam.stress(stretches=numpy.stack([stretch] * 3, axis=1))[:, 0, 0]
+        numpy.testing.assert_allclose(found, 20 * (1 - stretch**-2) + 50 * 3 * numpy.log(stretch) / stretch**2,
+                                      atol=1e-12)
         # What is defined takes part.
         experiment["models"]["rubber"]["mechanisms"] = [{"type": "crosslinks"}]
         experiment["tests"]["uniaxial"]["mechanisms"] = [{"type": "offset"}]

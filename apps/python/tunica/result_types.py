@@ -2333,12 +2333,14 @@ class StabilityAnswer(TypedDict):
 
 class JudgedMaterial(TypedDict):
     """Of one model the keys of stability_of_model, of several `models`."""
-    #: Of strips along each axis.
+    #: Of strips along each axis; empty where the model changes its volume.
     transverse: NotRequired[list[StripStability]]
     #: Whether the material stays elliptic.
     ellipticity: NotRequired[Condition]
     #: Drucker's condition, of isotropic models; null for others.
     drucker: NotRequired[Condition | None]
+    #: Whether the energy has a minimum over the stretches of free faces; null where the model keeps its volume.
+    free_faces: NotRequired[Condition | None]
     #: Inequalities of the model that do not hold, with their value.
     inadmissible: NotRequired[list[str]]
     #: All of it in words.

@@ -18,8 +18,8 @@
 /// Tensors for PrincipalStretches.
 namespace tunica::principal_stretches {
 
-using Tensor = free_faces::Tensor;  ///< tt, zz, rr, tz, zr, tr
-using Vector = free_faces::VectorOf<double>;
+using Tensor = free_faces::Tensor;            ///< tt, zz, rr, tz, zr, tr
+using Vector = free_faces::VectorOf<double>;  ///< t, z, r
 using free_faces::dyad;
 
 /// C = Σ_a c_a n_a ⊗ n_a; not-a-number throughout where C is no finite tensor.
