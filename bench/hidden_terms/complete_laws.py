@@ -36,7 +36,7 @@ def _gent_thomas(random: np.random.Generator) -> typing.List[Part]:
 
 
 def _haines_wilson(random: np.random.Generator) -> typing.List[Part]:
-    """0.5 (I1 − 3) + (I2 − 3) + 0.7 (I1 − 3)(I2 − 3) + 0.2 (I1 − 3)³: its product is no term of tunica."""
+    """0.5 (I1 − 3) + (I2 − 3) + 0.7 (I1 − 3)(I2 − 3) + 0.2 (I1 − 3)³: tunica tries its product by name only."""
     return [Part("I1", "linear", {"mu": 1.0}), Part("I2", "linear", {"mu": 2.0}), Part("product", "", {"k": 0.7}),
             Part("I1", "cubic", {"k": 0.6})]
 
