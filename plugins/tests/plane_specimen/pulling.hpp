@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body.hpp"
+#include "factor.hpp"
 #include "tunica/test.hpp"
 
 namespace tunica::plane {
@@ -48,13 +49,15 @@ class Pulling {
   [[nodiscard]] const std::vector<std::array<double, 4>>& gradients() const { return F_; }
 
  private:
-  using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
-  static constexpr int most_iterations = 25;
+  static constexpr int most_iterations = 40;
+  static constexpr std::size_t most_states = 4;
   static constexpr double smallest_step = 2e-3;  ///< of the way from row to row
   bool evaluate(bool with_tangent, bool with_parameters);
   bool factor();
   bool newton(double target, const Gauge* driver);
-  [[nodiscard]] Eigen::VectorXd solve(const Factor& factor, const std::vector<double>& of_dofs) const;
+  void extrapolate(double target);
+  /// −K⁻¹ of each of these, given by dof.
+  [[nodiscard]] Eigen::MatrixXd solve(const Factor& factor, std::span<const std::vector<double>> of_dofs) const;
   /// Of a stretch: what these changes of the free displacements and of the pull do to it.
   [[nodiscard]] double reading(const Gauge& gauge, const Eigen::VectorXd& du, double dpull) const;
   /// The change of a gauge with these changes of the free displacements, the pull and the forces at fixed u.
@@ -69,17 +72,24 @@ class Pulling {
   std::vector<std::array<double, 4>> F_;
   Eigen::SparseMatrix<double> K_;
   Factor factor_;
-  bool analysed_ = false, factored_ = false;
+  bool factored_ = false;
   Eigen::VectorXd along_;  ///< du/dd at the solution, by unknown
   /// At the solution.
   struct Linear {
-    Factor factor;
-    bool analysed = false;
+    std::optional<Factor> factor;
     std::vector<double> by_pull;
-    Eigen::VectorXd along;  ///< du/dd, by unknown
-    double slope = 1;       ///< dd/dtarget
+    std::vector<std::vector<double>> by_parameters;  ///< forces at fixed u, by the model's parameters
+    Eigen::VectorXd along;                           ///< du/dd, by unknown
+    Eigen::MatrixXd du;                              ///< by parameters, at a fixed pull
+    double slope = 1;                                ///< dd/dtarget
   } linear_;
   const Gauge* driver_ = nullptr;
+  /// States that were reached, the latest last.
+  struct State {
+    double target, pull;
+    std::vector<double> u;
+  };
+  std::vector<State> reached_;
 };
 
 }  // namespace tunica::plane
