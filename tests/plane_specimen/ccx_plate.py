@@ -75,9 +75,9 @@ def plate_with_hole(length, width, radius):
     return place
 
 
-def solve(folder, mesh, length, card, stretches, marks):
+def solve(folder, mesh, length, card, stretches, marks, first=0.5):
     """Force on the grip per mm of thickness, in the units of the card times mm, and the distance of marks over that
-    unloaded, at every stretch of the grips. `marks`: (x, y) of nodes on an axis."""
+    unloaded, at every stretch of the grips. `marks`: (x, y) of nodes on an axis. `first`: the first part of a step that is tried."""
     near = 1e-9 * length
     sets = {"GRIP": mesh.where(lambda x, y, z: abs(x - length / 2) < near), "X0": mesh.where(lambda x, y, z: abs(x) < near),
             "Y0": mesh.where(lambda x, y, z: abs(y) < near), "Z0": mesh.where(lambda x, y, z: abs(z) < near),
@@ -92,7 +92,7 @@ def solve(folder, mesh, length, card, stretches, marks):
     text += card + f"*SOLID SECTION, ELSET=EALL, MATERIAL={material}\n"
     text += "*BOUNDARY\nX0, 1, 1\nY0, 2, 2\nZ0, 3, 3\nGRIP, 2, 2, 0\n"
     for stretch in stretches:
-        text += ("*STEP, NLGEOM, INC=1000\n*STATIC\n0.5, 1, 1e-6\n*BOUNDARY\n"
+        text += (f"*STEP, NLGEOM, INC=1000\n*STATIC\n{first}, 1, 1e-6\n*BOUNDARY\n"
                  f"GRIP, 1, 1, {(stretch - 1) * length / 2:.12g}\n*NODE PRINT, NSET=GRIP, TOTALS=ONLY, FREQUENCY=1000\nRF\n"
                  "*NODE PRINT, NSET=MARKS, FREQUENCY=1000\nU\n*END STEP\n")
     folder = pathlib.Path(folder)
