@@ -57,6 +57,11 @@ class Estimate(float):
         return self.about.get("ci95") and tuple(self.about["ci95"])
 
     @property
+    def mesh_bias(self):
+        """What finite elements on a finer mesh would take off the value, or None where no test compares itself so."""
+        return self.about.get("mesh_bias")
+
+    @property
     def at_bound(self):
         """"lower" or "upper" where the value lies at a bound, else None."""
         return self.about.get("at_bound")

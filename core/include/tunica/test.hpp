@@ -194,6 +194,10 @@ struct Agreement {
   std::string unit;
   /// The largest difference that discretisation explains. A larger one is a fault.
   double expected = 0;
+  /// c·n entries, as TestOutput::values: what a finer discretisation of the same problem adds to the predictions. The
+  /// host makes the bias of fitted parameters of it, and adds up those of several comparisons. Empty: another kind of
+  /// comparison.
+  std::vector<double> shift = {};
 };
 
 /// Fields over a simulated body at one row, on a mesh of quadrilaterals.

@@ -9,7 +9,9 @@
 #include "assembly/quality.hpp"
 #include "comparison/hold_out.hpp"
 #include "plugins/limited_work.hpp"
+#include "text/lists.hpp"
 #include "uncertainty/identifiability.hpp"
+#include "uncertainty/mesh_bias.hpp"
 
 namespace tunica::comparison {
 
@@ -84,6 +86,42 @@ void add_covariance(const assembly::Assembly& assembly, const std::vector<double
   }
 }
 
+void warn_of_coarse_mesh(const RunSummary& summary, std::vector<execution::Warning>& warnings) {
+  std::vector<std::string> names;
+  double worst = 0;
+  for (const Estimate& one : summary.parameters) {
+    if (!one.mesh_bias_matters()) continue;
+    names.push_back(one.name);
+    worst = std::max(worst, 2 * std::abs(*one.mesh_bias) / (one.ci95->second - one.ci95->first));
+  }
+  if (names.empty()) return;
+  warnings.push_back({WarningKind::mesh_biases_parameters,
+                      fmt::format("a finer mesh would move {} by up to {:.2g} half widths of {} 95 % {}, which say "
+                                  "nothing of the mesh. Take smaller elements",
+                                  text::joined(names), worst, text::agreeing(names.size(), "its", "their"),
+                                  text::agreeing(names.size(), "interval", "intervals")),
+                      summary.label});
+}
+
+/// What finite elements on a finer mesh would make of the parameters.
+void add_mesh_bias(const assembly::Assembly& assembly, const std::vector<double>& best,
+                   const uncertainty::Identifiability& found, const plugins::LimitedWork& work, RunSummary& summary,
+                   std::vector<execution::Warning>& warnings) {
+  uncertainty::MeshBias bias;
+  const Status status = uncertainty::mesh_bias(assembly, summary.tests, best, found, bias);
+  if (work.is_over()) {
+    summary.notes.emplace_back("what a finer mesh would change is left out: max_time was over");
+    return;
+  }
+  if (!status.ok()) {
+    summary.notes.push_back("the simulation could not be compared with a finer one: " + status.reason());
+    return;
+  }
+  for (std::size_t j = 0; j < bias.of_parameter.size(); ++j)
+    if (std::isfinite(bias.of_parameter[j])) summary.parameters[j].mesh_bias = bias.of_parameter[j];
+  warn_of_coarse_mesh(summary, warnings);
+}
+
 /// Intervals from the noise of the data where they fix a parameter, and in words what they do not.
 void add_identifiability(const assembly::Assembly& assembly, const execution::RealisationResult& best,
                          const plugins::LimitedWork& work, RunSummary& summary,
@@ -116,6 +154,7 @@ void add_identifiability(const assembly::Assembly& assembly, const execution::Re
     if (interval.identified && std::isfinite(interval.ci95)) estimate.ci95 = {interval.lower, interval.upper};
   }
   add_covariance(assembly, best.best.parameters, found, summary.covariance);
+  add_mesh_bias(assembly, best.best.parameters, found, work, summary, warnings);
   summary.curve_ci95 = std::move(found.curve_ci95);
   summary.identifiability = found.sentences();
 }

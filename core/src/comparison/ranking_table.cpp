@@ -254,6 +254,14 @@ text::StyledText value_text(const Estimate& estimate) {
     text += symmetric ? fmt::format(" ± {:.2g}{}", (above + below) / 2, unit)
                       : fmt::format("{} ({:.4g} … {:.4g})", unit, estimate.ci95->first, estimate.ci95->second);
   }
+  if (estimate.mesh_bias) {
+    const std::string bias = fmt::format("mesh {:+.2g}{}", *estimate.mesh_bias, unit);
+    text += "  ";
+    if (estimate.mesh_bias_matters())
+      text.add(bias, text::Emphasis::caution);
+    else
+      text += bias;
+  }
   if (estimate.at_bound != Estimate::Bound::none) {
     text += "  ";
     const bool upper = estimate.at_bound == Estimate::Bound::upper;

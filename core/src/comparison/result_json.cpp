@@ -172,6 +172,7 @@ json best(const RunSummary& run) {
              {"max", parameter.max}};
     if (parameter.profile)
       entry["profile_ci95"] = {or_null(parameter.profile->lower), or_null(parameter.profile->upper)};
+    if (parameter.mesh_bias) entry["mesh_bias"] = *parameter.mesh_bias;
     if (run.bootstrap) entry["bootstrap_ci95"] = interval(parameter.bootstrap);
   }
   json per_test = json::object();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -36,6 +37,12 @@ struct Estimate {
   std::optional<Interval> ci95;            ///< from the noise of the data; none where they do not fix it
   std::optional<ProfileInterval> profile;  ///< where it was asked for
   std::optional<Interval> bootstrap;
+  /// Value less what finite elements on a finer mesh would give; none where no test has one, or the data do not fix it.
+  std::optional<double> mesh_bias;
+  /// Whether that is more than a third of the half width of ci95.
+  [[nodiscard]] bool mesh_bias_matters() const {
+    return mesh_bias && ci95 && std::abs(*mesh_bias) > (ci95->second - ci95->first) / 6;
+  }
   bool straight = true;     ///< ci95 can be believed, see uncertainty/straightness.hpp
   bool identified = false;  ///< the data fix it, apart from a bound
   bool held = false;        ///< a constraint fixes it

@@ -51,12 +51,17 @@ void add_table(Page& page, const Order::Run& run) {
     made.push_back(kind);
     head.push_back(fmt::format("95 %, {}", kind.name));
   }
+  bool meshed = false;
+  for (const auto& [name, estimate] : parameters.items()) meshed = meshed || member(estimate, "mesh_bias").is_number();
+  if (meshed) head.push_back("of which the mesh");
   head.insert(head.end(), {"bounds", ""});
   for (const auto& [name, estimate] : parameters.items()) {
     const std::string bound = word(estimate, "at_bound");
     auto& row = rows.emplace_back(
         std::vector<Cell>{{text::titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}});
     for (const Kind& kind : made) row.push_back({interval_words(estimate, kind)});
+    if (meshed)
+      row.push_back({member(estimate, "mesh_bias").is_number() ? figure(number(estimate, "mesh_bias")) : "", true});
     row.push_back({fmt::format("{} … {}", figure(number(estimate, "min")), figure(number(estimate, "max")))});
     row.push_back({bound.empty() ? "" : "at its " + bound + " bound", false, true});
   }

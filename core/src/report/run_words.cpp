@@ -131,8 +131,13 @@ void fit_in_doubt(const Json& best, Doubts& doubts) {
 }
 
 void parameters_in_doubt(const Json& best, Doubts& doubts) {
-  std::vector<std::string> bound, natural, loose, one_sided, unreliable, fixed;
+  std::vector<std::string> bound, natural, loose, one_sided, unreliable, fixed, coarse;
   for (const auto& [name, estimate] : member(best, "parameters").items()) {
+    const Json& interval = member(estimate, "ci95");
+    if (const double bias = number(estimate, "mesh_bias");
+        std::isfinite(bias) && interval.is_array() &&
+        std::abs(bias) > (interval[1].get<double>() - interval[0].get<double>()) / 6)
+      coarse.push_back(name);
     if (const std::string kind = word(estimate, "bound_kind"); kind == "symmetry" || kind == "physical")
       natural.push_back(name);
     else if (member(estimate, "at_bound").is_string())
@@ -148,6 +153,10 @@ void parameters_in_doubt(const Json& best, Doubts& doubts) {
              !member(estimate, "bootstrap_ci95").is_array())
       unreliable.push_back(name);
   }
+  if (!coarse.empty())
+    doubts.add(fmt::format("the mesh moves {} by more than a third of the half width of {}", text::joined(coarse),
+                           text::agreeing(coarse.size(), "its interval", "their intervals")),
+               "Take smaller elements.");
   if (!bound.empty())
     doubts.add(fmt::format("{} {} at a bound", text::joined(bound), text::agreeing(bound.size(), "lies", "lie")),
                "Widen the bounds where physics allows it, otherwise doubt the model.");

@@ -47,15 +47,16 @@ Matrix by_unit_noise(const assembly::Whitening& noise, const Matrix& by_predicti
 
 /// What the minimum of an objective moves by, in some coordinates: H and M of the header.
 struct Bread {
-  Matrix rows;       ///< Jacobian of the residuals
-  Matrix curvature;  ///< H
-  Matrix score;      ///< M, covariance of the gradient
+  Matrix weighted;       ///< 2 w ρ' times the Jacobian of the residuals
+  Matrix by_prediction;  ///< ∂g/∂ŷ, transposed
+  Matrix curvature;      ///< H
+  Matrix score;          ///< M, covariance of the gradient
 };
 
-/// At `free`, in the coordinates that the columns of `basis` span in the unit box. `measured` stands in for the data
-/// unless empty.
-Status linearise(const assembly::Assembly& assembly, std::span<const double> free, const assembly::Whitening& noise,
-                 std::span<const double> measured, const Matrix& basis, Bread& found) {
+/// All but the score at `free`, in the coordinates that the columns of `basis` span in the unit box. `measured` stands
+/// in for the data unless empty.
+Status linearise(const assembly::Assembly& assembly, std::span<const double> free, std::span<const double> measured,
+                 const Matrix& basis, Bread& found) {
   const auto n = static_cast<Eigen::Index>(free.size()), k = basis.cols(),
              m = static_cast<Eigen::Index>(assembly.layout().residual_count);
   std::vector<double> residuals(assembly.layout().residual_count), entries(residuals.size() * free.size());
@@ -66,21 +67,23 @@ Status linearise(const assembly::Assembly& assembly, std::span<const double> fre
       status.kind() == Status::Kind::failed)
     return status;
   assembly.box().jacobian_to_unit(free, entries);
-  found.rows = Eigen::Map<const Rows>(entries.data(), m, n) * basis;
-  const Matrix weighted = weights(assembly, residuals).asDiagonal() * found.rows;
-  found.curvature = found.rows.transpose() * weighted;
-
-  Matrix by_prediction(static_cast<Eigen::Index>(assembly.layout().prediction_count), k);
+  const Matrix rows = Eigen::Map<const Rows>(entries.data(), m, n) * basis;
+  found.weighted = weights(assembly, residuals).asDiagonal() * rows;
+  found.curvature = rows.transpose() * found.weighted;
+  found.by_prediction.resize(static_cast<Eigen::Index>(assembly.layout().prediction_count), k);
   for (Eigen::Index j = 0; j < k; ++j) {
-    const Vector column = weighted.col(j);
+    const Vector column = found.weighted.col(j);
     assembly.evaluator().transpose_residuals({column.data(), residuals.size()},
-                                             {&by_prediction(0, j), assembly.layout().prediction_count});
+                                             {&found.by_prediction(0, j), assembly.layout().prediction_count});
   }
-  const Matrix u = by_unit_noise(noise, by_prediction);
+  return {};
+}
+
+void add_score(const assembly::Whitening& noise, Bread& found) {
+  const Matrix u = by_unit_noise(noise, found.by_prediction);
   found.score = u.transpose() * u;
   const auto priors = static_cast<Eigen::Index>(noise.priors.size());
-  found.score += weighted.bottomRows(priors).transpose() * weighted.bottomRows(priors);
-  return {};
+  found.score += found.weighted.bottomRows(priors).transpose() * found.weighted.bottomRows(priors);
 }
 
 }  // namespace
@@ -98,7 +101,8 @@ Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double
   const Vector width = spectrum.values(seen).cwiseInverse();
   const Matrix scaled = spectrum.V(Eigen::all, seen) * width.asDiagonal();
   Bread bread;
-  if (Status status = linearise(assembly, free, noise, {}, scaled, bread); !status.ok()) return status;
+  if (Status status = linearise(assembly, free, {}, scaled, bread); !status.ok()) return status;
+  add_score(noise, bread);
   const std::optional<Matrix> half = numerics::half_sandwich(bread.curvature, bread.score);
   if (!half) return Status::failed("the objective's curvature is singular in directions that the data see");
   const Matrix spread = width.asDiagonal() * *half;
@@ -115,6 +119,28 @@ Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double
   return {};
 }
 
+Status minimum_shift(const assembly::Assembly& assembly, std::span<const double> free,
+                     std::span<const std::size_t> moving, std::span<const double> change, std::span<double> shift) {
+  std::fill(shift.begin(), shift.end(), 0.0);
+  Matrix basis = Matrix::Zero(static_cast<Eigen::Index>(free.size()), static_cast<Eigen::Index>(moving.size()));
+  for (std::size_t k = 0; k < moving.size(); ++k)
+    basis(static_cast<Eigen::Index>(moving[k]), static_cast<Eigen::Index>(k)) = 1;
+  Bread bread;
+  if (Status status = linearise(assembly, free, {}, basis, bread); !status.ok()) return status;
+  const Eigen::Map<const Vector> moved(change.data(), static_cast<Eigen::Index>(change.size()));
+  const Vector gradient = bread.by_prediction.transpose() * moved;
+  // Scaled to a diagonal of one, so that no unit decides which direction is seen.
+  const Vector width = bread.curvature.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const auto [values, vectors] = numerics::eigenpairs(width.asDiagonal() * bread.curvature * width.asDiagonal());
+  const Vector along = vectors.transpose() * width.cwiseProduct(gradient);
+  Vector step = Vector::Zero(along.size());
+  for (Eigen::Index k = 0; k < step.size(); ++k)
+    if (values[k] > 1e-13 * values.maxCoeff()) step -= along[k] / values[k] * vectors.col(k);
+  for (std::size_t k = 0; k < moving.size(); ++k)
+    shift[moving[k]] = width[static_cast<Eigen::Index>(k)] * step[static_cast<Eigen::Index>(k)];
+  return {};
+}
+
 Status objective_scales(const assembly::Assembly& assembly, std::span<const double> free,
                         const assembly::Whitening& noise, std::span<const double> measured,
                         std::vector<double>& scales) {
@@ -125,8 +151,9 @@ Status objective_scales(const assembly::Assembly& assembly, std::span<const doub
   assembly.box().to_unit(free, unit);
   const auto size = static_cast<Eigen::Index>(n);
   Bread all;
-  if (Status status = linearise(assembly, free, noise, measured, Matrix::Identity(size, size), all); !status.ok())
+  if (Status status = linearise(assembly, free, measured, Matrix::Identity(size, size), all); !status.ok())
     return status;
+  add_score(noise, all);
   const double weakest = assembly.layout().jacobian_is_exact ? weakest_exact : weakest_differenced;
   for (std::size_t j = 0; j < n; ++j) {
     std::vector<Eigen::Index> moving;  // a parameter at a bound moves in its own profile only

@@ -20,6 +20,11 @@ namespace tunica::uncertainty {
 Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double> free,
                       const assembly::Whitening& noise, Spectrum& spectrum);
 
+/// How far the minimum of the objective moves, in the unit box, where all predictions change by `change`: to first
+/// order −H⁻¹ (∂g/∂ŷ) change, of which `moving` parameters take part and the others stay. `shift`: one a parameter.
+Status minimum_shift(const assembly::Assembly& assembly, std::span<const double> free,
+                     std::span<const std::size_t> moving, std::span<const double> change, std::span<double> shift);
+
 /// What the rise of the objective J along the profile of each parameter has to be divided by to rise as −2 ln L does.
 /// Near the minimum the profile is (p − p̂)²/(2 (H⁻¹)_jj), while the estimate has the variance (H⁻¹ M H⁻¹)_jj, so that
 ///

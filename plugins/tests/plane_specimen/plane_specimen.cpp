@@ -69,7 +69,8 @@ class PlaneSpecimen final : public Test {
       }
       const bool stress = gauges_[k].kind == Gauge::Kind::stress;
       found.push_back({fmt::format("twice as many elements: {}", rows_.channels[k]), difference, stress ? "kPa" : "1",
-                       0.005 * largest});
+                       0.005 * largest, std::vector<double>(n * m)});
+      for (std::size_t i = k * n; i < (k + 1) * n; ++i) found.back().shift[i] = fine[i] - coarse[i];
     }
     return {};
   }
