@@ -41,6 +41,8 @@ TEST_F(NextStep, IsAskedOfTheFileFirst) {
                          "Map a time column: then viscoelasticity can be tried as well. Measure a test again"));
   budget.not_looked_for = {{"stress_softening", Lack::loading}};
   EXPECT_THAT(after(Verdict::leading), StartsWith("Record the loading before the first row too"));
+  budget.not_looked_for = {{"clamped_ends", Lack::size}};
+  EXPECT_EQ(after(Verdict::leading), "Say how long and how wide the specimen is: then clamped_ends can be tried.");
 }
 
 TEST_F(NextStep, OfAnUnlistedMisfitDependsOnWhatIsLeft) {

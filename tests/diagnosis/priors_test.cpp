@@ -84,6 +84,21 @@ TEST(Priors, NoFibresAreProposedForRubberUnlessTheyAreAskedFor) {
   EXPECT_FALSE(candidate(asked, "axial_fibres").hypotheses.empty());
 }
 
+// Seed 5.
+TEST(Priors, ClampsAreLookedForWhereTheFileSaysHowLongAndWideAStripIs) {
+  Rubber measured;
+  measured.measure(5);
+  const Diagnosis found = measured.diagnose();
+  EXPECT_TRUE(candidate(found, "clamped_ends").hypotheses.empty());
+  EXPECT_STREQ(code_of(candidate(found, "clamped_ends").absence), "no_size");
+  for (auto& test : measured.experiment["tests"]) test["length"] = "40 mm";
+  measured.save();
+  EXPECT_STREQ(code_of(candidate(measured.diagnose(), "clamped_ends").absence), "no_size");
+  for (auto& test : measured.experiment["tests"]) test["width"] = "10 mm";
+  measured.save();
+  EXPECT_FALSE(candidate(measured.diagnose(), "clamped_ends").hypotheses.empty());
+}
+
 // Seed 5: nothing is wrong, a false alarm has 5 %.
 TEST(Priors, OnlyWhatCouldApplyCanHide) {
   const Rubber measured;

@@ -130,7 +130,8 @@ TEST(DeclaredStage, IsWhereTheMechanismActs) {
                                                            "sheet_prestretch",
                                                            "sheet_force_offset",
                                                            "sheet_force_scale_error",
-                                                           "channel_lag"}},
+                                                           "channel_lag",
+                                                           "clamped_ends"}},
                                                          {Stage::data, {"outliers"}}};
   for (const auto& [stage, ids] : stages)
     for (const std::string& id : ids) EXPECT_EQ(declared(id).stage, stage) << id;

@@ -67,6 +67,12 @@ inline Subject subject(const std::string& mechanism, const std::string& type) {
         target.set("channel", made.bare->rows().channels.back());
       else if (option.name == "rows")
         target.set("rows", std::string("1:3"));
+    if (!factory.sizes.empty()) {  // of the strip, as a file says them
+      for (const auto& [name, value] : {std::pair("length", 20.0), std::pair("width", 10.0),
+                                        std::pair("gauge_length", 0.0), std::pair("angle", 0.0)})
+        target.set(name, value);
+      target.set("direction", StripSetup().direction);
+    }
     made.with = wrapped_test(mechanism, std::move(made.with), target);
   }
   made.own = made.with->describe().nulls;

@@ -92,6 +92,9 @@ struct MechanismFactory {
   bool memory = false;
   /// Options of its object in the experiment file.
   std::vector<Option> options = {};
+  /// Options of the test that it needs, as sizes above 0 in the file, for example a length. Diagnosis does not look for
+  /// it where one is 0, and says so.
+  std::vector<std::string> sizes = {};
 
   /// In place of wrap_test: the name of a parameter that tests have themselves, a native imperfection. It rests at its
   /// null unless this mechanism frees it. An option that the test declares too overrides the test's.
@@ -107,7 +110,8 @@ struct MechanismFactory {
   /// Wraps a model, for the stages invariants to history. Throws InputError if it cannot apply, for example without
   /// fibre parts.
   std::function<std::unique_ptr<Model>(std::unique_ptr<Model>, const Options&)> wrap_model = {};
-  /// Wraps a test, for the stages test and data. Throws InputError if it cannot apply.
+  /// Wraps a test, for the stages test and data. Throws InputError if it cannot apply. Beside its own options it gets
+  /// those of the test, under names that it does not declare itself.
   std::function<std::unique_ptr<Test>(std::unique_ptr<Test>, const Options&)> wrap_test = {};
 
   /// The parameters of an object with these options.

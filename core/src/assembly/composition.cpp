@@ -11,6 +11,7 @@
 #include "data/nearest.hpp"
 #include "data/units.hpp"
 #include "plugins/calls.hpp"
+#include "plugins/default_options.hpp"
 #include "plugins/guarded.hpp"
 #include "plugins/interrupted.hpp"
 
@@ -220,12 +221,13 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
   const std::string owner = fmt::format("test '{}'", entry.name), prefix = entry.name + ".";
   const auto& on_shelf = look_up(catalogue.tests(), entry.type, "test type");
   ComposedTest composed{{}, on_shelf.plugin, {}, {}};
+  Options of_test = entry.options;
   const std::vector<Layer> mechanisms = layers(entry.mechanisms, catalogue, owner, false);
   for (const Layer& layer : mechanisms) refuse_other_tests(entry, layer, owner);
   try {
     composed.dataset = data::read_dataset(entry.data, on_shelf.factory.observables);
-    TestSetup setup{entry.options, composed.dataset.rows(), entry.data.stress_measure};
-    override_options(setup.options, on_shelf.factory.options, mechanisms);
+    override_options(of_test, on_shelf.factory.options, mechanisms);
+    TestSetup setup{of_test, composed.dataset.rows(), entry.data.stress_measure};
     for (const experiment::LayerEntry& one : entry.layers) setup.layers.push_back(one.thickness);
     for (const data::Channel& channel : composed.dataset.channels) setup.measured.emplace_back(channel.values);
     setup.folder = entry.folder.string();
@@ -249,7 +251,8 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
       expose_native(composed.slots, own, layer, entry, prefix, owner);
       continue;
     }
-    composed.test = plugins::wrap(*layer.mechanism, std::move(composed.test), layer.entry->options);
+    composed.test = plugins::wrap(*layer.mechanism, std::move(composed.test),
+                                  plugins::with_options_of_test(layer.entry->options, of_test));
     append_slots(composed.slots, composed.test->describe().parameters, layer, prefix, owner);
   }
   const TestRows& rows = composed.test->rows();

@@ -75,6 +75,8 @@ std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis,
       all.push_back({one.id, Budget::Lack::clock});
     else if (one.absence == diagnosis::Absence::no_volume)
       all.push_back({one.id, Budget::Lack::volume});
+    else if (one.absence == diagnosis::Absence::no_size)
+      all.push_back({one.id, Budget::Lack::size});
     else if (!one.without_past.empty())
       all.push_back({one.id, order ? Budget::Lack::order : Budget::Lack::loading});
   }

@@ -50,7 +50,8 @@ struct Budget {
     clock,    ///< there is no time
     order,    ///< nobody says in which order the rows were measured
     loading,  ///< the first rows lie far from rest
-    volume    ///< neither a lateral stretch nor a volume was measured
+    volume,   ///< neither a lateral stretch nor a volume was measured
+    size      ///< the file does not say how large the specimen is
   };
   struct Untried {
     std::string id;

@@ -25,7 +25,7 @@ std::vector<std::string> that_lack(const Budget& budget, Lack lack) {
 /// A time column gives the order of the rows as well.
 std::string what_the_file_lacks(const Budget& budget) {
   const std::vector<std::string> clock = that_lack(budget, Lack::clock), order = that_lack(budget, Lack::order),
-                                 loading = that_lack(budget, Lack::loading);
+                                 loading = that_lack(budget, Lack::loading), size = that_lack(budget, Lack::size);
   std::vector<std::string> sentences;
   if (!order.empty())
     sentences.push_back(fmt::format("Say in which order the rows were measured (\"order\"): then {} can be tried.",
@@ -36,6 +36,9 @@ std::string what_the_file_lacks(const Budget& budget) {
   if (!loading.empty())
     sentences.push_back(
         fmt::format("Record the loading before the first row too: then {} can be tried.", text::joined(loading)));
+  if (!size.empty())
+    sentences.push_back(
+        fmt::format("Say how long and how wide the specimen is: then {} can be tried.", text::joined(size)));
   std::string text;
   for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
   return text;

@@ -10,6 +10,7 @@
 #include "conformance/jobs.hpp"
 #include "conformance/mechanism_properties.hpp"
 #include "conformance/option_values.hpp"
+#include "plugins/default_options.hpp"
 #include "plugins/guarded.hpp"
 
 namespace tunica::conformance {
@@ -106,11 +107,14 @@ WrappedTest around_test(const Entry& entry, const std::string& type, const Check
     on.amplitude = static_cast<std::size_t>(found - own.begin());
     return on;
   }
+  Options of_test = bare.from ? bare.from->options : context.settings.experiment->test(bare.name).options;
+  for (const std::string& size : mechanism.sizes)  // made-up tests leave out what they do not need themselves
+    if (bare.from && of_test.has(size) && of_test.number(size) == 0) of_test.set(size, 1.0);
   std::string last;
   for (const Options& options : guesses(mechanism.options, &bare.test->rows(), choices)) try {
       on.with = plugins::wrap_bare(
           entry, bare.from ? plugins::create_bare(factory, bare.from->setup()) : composed_test(bare.name, context),
-          options);
+          plugins::with_options_of_test(options, of_test));
       on.mechanism.parameters = mechanism.parameters_with(options);
       on.amplitude = bare.own.size();
       on.own.push_back(mechanism.null);

@@ -156,6 +156,8 @@ const char* code_of(Absence absence) {
       return "isotropic";
     case Absence::no_volume:
       return "no_volume";
+    case Absence::no_size:
+      return "no_size";
     case Absence::no_past:
       break;
   }
@@ -164,7 +166,8 @@ const char* code_of(Absence absence) {
 
 bool can_hide(Absence absence) {
   return absence == Absence::none || absence == Absence::no_trace || absence == Absence::absorbed ||
-         absence == Absence::no_clock || absence == Absence::no_past || absence == Absence::no_volume;
+         absence == Absence::no_clock || absence == Absence::no_past || absence == Absence::no_volume ||
+         absence == Absence::no_size;
 }
 
 const char* code_of(WarningKind kind) {

@@ -114,6 +114,7 @@ enum class Absence {
   not_applicable,  ///< the mechanism refuses the base
   isotropic,       ///< it acts along directions, and the base has none
   no_volume,       ///< the volume would change, and no measured lateral stretch or volume shows it
+  no_size,         ///< it needs sizes of the specimen that the file does not say
   no_past          ///< it has memory, and nobody says what a test bore before each row
 };
 const char* code_of(Absence absence);

@@ -10,4 +10,10 @@ Options default_options(const std::vector<Option>& declared) {
   return options;
 }
 
+Options with_options_of_test(Options own, const Options& test) {
+  for (const auto& [name, value] : test.values())
+    if (!own.has(name)) own.set(name, value);
+  return own;
+}
+
 }  // namespace tunica::plugins

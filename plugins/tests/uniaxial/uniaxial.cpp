@@ -187,6 +187,12 @@ TestFactory factory() {
        Option::quantity("angle", "deg", -360,
                         "Turn of the strip from that axis, from axial towards circumferential. The grips keep the "
                         "strip from shearing.",
+                        0.0),
+       Option::quantity("length", "mm", 0,
+                        "Unloaded distance of the clamps; 0 = not known. The mechanism clamped_ends needs it.", 0.0),
+       Option::quantity("width", "mm", 0, "Unloaded width; 0 = not known. The mechanism clamped_ends needs it.", 0.0),
+       Option::quantity("gauge_length", "mm", 0,
+                        "Unloaded distance of the marks on the strip that the stretch is of; 0 = it is of the clamps.",
                         0.0)},
       {{"stretch", "1", Observable::Role::abscissa, true, "Stretch along the strip.", Observable::Kind::stretch},
        {"time", "s", Observable::Role::time, false, "Time since the unloaded state.", Observable::Kind::plain},

@@ -46,6 +46,11 @@ bool has_field(const assembly::Assembly& base) {
 /// Thrown where a mechanism changes the volume and no channel shows it.
 struct VolumeIsNotSeen {};
 
+bool lacks_size(const MechanismFactory& mechanism, const Options& of_test) {
+  return std::any_of(mechanism.sizes.begin(), mechanism.sizes.end(),
+                     [&](const std::string& name) { return !of_test.has(name) || !(of_test.number(name) > 0); });
+}
+
 class CandidateSearch {
  public:
   CandidateSearch(const Inquiry& inquiry, const Evidence& evidence, const Projection& projection)
@@ -161,6 +166,13 @@ class CandidateSearch {
       return materials.empty() ? nowhere(Absence::already_there, "the model has it already") : materials;
     }
     std::vector<Place> places = single_places(mechanism, experiment_, run_, base_);
+    if (!places.empty() && !mechanism.sizes.empty()) {
+      std::erase_if(places, [&](const Place& place) {
+        return lacks_size(mechanism, experiment_.test(place.tests.front()).options);
+      });
+      if (places.empty())
+        return nowhere(Absence::no_size, "the file does not say the sizes of the specimen that it needs");
+    }
     std::erase_if(places, [&](const Place& place) {
       return already_there(experiment_.test(place.tests.front()).mechanisms, id);
     });
