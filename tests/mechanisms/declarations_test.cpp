@@ -102,37 +102,19 @@ TEST(DeclaredDirection, IsThatOfWhatHasFibres) {
 }
 
 TEST(DeclaredStage, IsWhereTheMechanismActs) {
-  const std::map<Stage, std::vector<std::string>> stages{{Stage::invariants, {"fibre_dispersion", "fibre_recruitment"}},
-                                                         {Stage::energy,
-                                                          {"axial_fibres", "circumferential_fibres", "second_invariant",
-                                                           "active_tone", "matrix_stiffening", "chain_extensibility"}},
-                                                         {Stage::history, {"stress_softening", "viscoelasticity"}},
-                                                         {Stage::test,
-                                                          {"permanent_set",
-                                                           "residual_stress",
-                                                           "axial_stretch_error",
-                                                           "tethering",
-                                                           "layered_wall",
-                                                           "geometry_error",
-                                                           "specimen_misalignment",
-                                                           "pressure_offset",
-                                                           "pressure_scale_error",
-                                                           "reference_length_error",
-                                                           "force_offset",
-                                                           "force_scale_error",
-                                                           "axial_force_offset",
-                                                           "axial_force_scale_error",
-                                                           "diameter_scale_error",
-                                                           "signal_drift",
-                                                           "displacement_offset",
-                                                           "zeroed_at_preload",
-                                                           "machine_compliance",
-                                                           "sheet_prestretch",
-                                                           "sheet_force_offset",
-                                                           "sheet_force_scale_error",
-                                                           "channel_lag",
-                                                           "clamped_ends"}},
-                                                         {Stage::data, {"outliers"}}};
+  const std::map<Stage, std::vector<std::string>> stages{
+      {Stage::invariants, {"fibre_dispersion", "fibre_recruitment"}},
+      {Stage::energy,
+       {"axial_fibres", "circumferential_fibres", "second_invariant", "active_tone", "matrix_stiffening",
+        "chain_extensibility"}},
+      {Stage::history, {"stress_softening", "viscoelasticity"}},
+      {Stage::test, {"permanent_set",        "residual_stress",         "axial_stretch_error",   "tethering",
+                     "layered_wall",         "geometry_error",          "specimen_misalignment", "pressure_offset",
+                     "pressure_scale_error", "reference_length_error",  "force_offset",          "force_scale_error",
+                     "axial_force_offset",   "axial_force_scale_error", "diameter_scale_error",  "signal_drift",
+                     "displacement_offset",  "zeroed_at_preload",       "machine_compliance",    "sheet_prestretch",
+                     "sheet_force_offset",   "sheet_force_scale_error", "channel_lag",           "clamped_ends"}},
+      {Stage::data, {"outliers"}}};
   for (const auto& [stage, ids] : stages)
     for (const std::string& id : ids) EXPECT_EQ(declared(id).stage, stage) << id;
 }
