@@ -43,7 +43,7 @@ struct Channel {
   std::string test;
   std::size_t over = 1, measured, predicted;
   std::vector<std::string> curves;  ///< one a row of a run; empty where they are one curve
-  std::optional<std::size_t> ci95, lowest, highest;
+  std::optional<std::size_t> ci95, lowest, highest, posterior_low, posterior_high, measured_low, measured_high;
 
   Channel(const Table& of, std::string name, const std::vector<std::size_t>& prescribed, std::size_t column,
           std::size_t fit, const std::string& own)
@@ -52,6 +52,10 @@ struct Channel {
     ci95 = table.find(observable + ".ci95");
     lowest = table.find(observable + ".lowest");
     highest = table.find(observable + ".highest");
+    posterior_low = table.find(observable + ".posterior_low");
+    posterior_high = table.find(observable + ".posterior_high");
+    measured_low = table.find(observable + ".measured_low");
+    measured_high = table.find(observable + ".measured_high");
     const std::vector<std::size_t> rows = table.groups("run").front().second;
     std::vector<data::Prescribed> quantities;
     for (const std::size_t k : prescribed) {
@@ -106,11 +110,13 @@ std::size_t add_measured(Chart& chart, const Channel& channel, const std::vector
   return left_out;
 }
 
-/// The curve with its interval, and before it the range of the realisations.
+/// The curve with its interval, by the posterior where there is one. Before it the range of the realisations, and where
+/// measurements lie by the posterior.
 std::size_t add_curve(Chart& chart, const Channel& channel, const std::vector<std::size_t>& rows, Series curve) {
   Series range{curve.name, "range", curve.style};
-  range.hidden = curve.hidden;
-  bool interval = false, spread = false;
+  Series measurements{curve.name + ", measurements", "band", curve.style};
+  range.hidden = measurements.hidden = curve.hidden;
+  bool interval = false, spread = false, predicted = false;
   for (const std::size_t row : rows) {
     const auto at = [&](const std::optional<std::size_t>& column) {
       return column ? channel.table.number(row, *column) : NAN;
@@ -119,13 +125,19 @@ std::size_t add_curve(Chart& chart, const Channel& channel, const std::vector<st
     const double half = at(channel.ci95), low = at(channel.lowest), high = at(channel.highest);
     curve.x.push_back(x);
     curve.y.push_back(y);
-    curve.low.push_back(y - half);
-    curve.high.push_back(y + half);
+    const double below = at(channel.posterior_low), above = at(channel.posterior_high);
+    curve.low.push_back(std::isfinite(below) ? below : y - half);
+    curve.high.push_back(std::isfinite(above) ? above : y + half);
+    measurements.x.push_back(x);
+    measurements.y.push_back(y);
+    measurements.low.push_back(at(channel.measured_low));
+    measurements.high.push_back(at(channel.measured_high));
+    predicted |= std::isfinite(measurements.low.back());
     range.x.push_back(x);
     range.y.push_back(y);
     range.low.push_back(low);
     range.high.push_back(high);
-    interval |= std::isfinite(half);
+    interval |= std::isfinite(half) || std::isfinite(below);
     spread |= high > low;
   }
   if (!interval) {
@@ -134,6 +146,7 @@ std::size_t add_curve(Chart& chart, const Channel& channel, const std::vector<st
   }
   const auto lines = channel.lines(rows);
   std::size_t left_out = spread ? add_lines(chart, range, lines) : 0;
+  if (predicted) left_out += add_lines(chart, measurements, lines);
   return left_out + add_lines(chart, curve, lines);
 }
 
@@ -144,6 +157,8 @@ std::string bands_note(const Chart& chart) {
     text += "Shaded: where the noise of the data leaves the fitted curve, 95 %. ";
   if (any([](const Series& series) { return series.mark == "range"; }))
     text += "Thin lines: lowest and highest over the realisations. ";
+  if (any([](const Series& series) { return series.mark == "band"; }))
+    text += "Both by the posterior: the curve, and in the wide band 95 % of measurements. ";
   return text;
 }
 

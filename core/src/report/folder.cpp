@@ -69,6 +69,16 @@ std::optional<Table> Folder::table(const std::string& file) const {
   return table;
 }
 
+std::optional<Json> Folder::document(const std::string& file) const {
+  if (!has(file)) return {};
+  try {
+    return detail::parse_json<Json>(execution::read_text(path_ / file));
+  } catch (const Json::exception& reason) {
+    remember(fmt::format("{}: is not JSON ({})", file, text::json_problem(reason.what())));
+    return {};
+  }
+}
+
 std::optional<Grid> Folder::grid(const std::string& file) const {
   std::string problem;
   auto grid = Grid::read(path_ / file, problem);

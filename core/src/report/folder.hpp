@@ -27,6 +27,8 @@ class Folder {
   [[nodiscard]] const Json& result() const { return result_; }
   /// Nothing where there is no such table; unreadable ones are remembered in problems().
   [[nodiscard]] std::optional<Table> table(const std::string& file) const;
+  /// The same of a JSON document.
+  [[nodiscard]] std::optional<Json> document(const std::string& file) const;
   /// The same of a mesh.
   [[nodiscard]] std::optional<Grid> grid(const std::string& file) const;
   /// The names of the tables that begin so, in order.

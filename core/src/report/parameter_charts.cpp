@@ -18,8 +18,10 @@ constexpr std::size_t most_runs = 12;
 struct Kind {
   const char *key, *name;
 };
-constexpr std::array<Kind, 3> kinds{
-    {{"ci95", "linearised"}, {"profile_ci95", "profile"}, {"bootstrap_ci95", "bootstrap"}}};
+constexpr std::array<Kind, 4> kinds{{{"ci95", "linearised"},
+                                     {"profile_ci95", "profile"},
+                                     {"bootstrap_ci95", "bootstrap"},
+                                     {"posterior_ci95", "posterior"}}};
 
 std::pair<double, double> interval(const Json& estimate, const char* key) {
   const Json& pair = member(estimate, key);
@@ -87,7 +89,7 @@ Chart across_runs(const std::string& name, const std::vector<const Order::Run*>&
   chart.id = "parameter_" + name;
   chart.title = name;
   std::array<RowSeries, kinds.size()> series;
-  std::array<bool, kinds.size()> used{true, false, false};
+  std::array<bool, kinds.size()> used{true};
   for (std::size_t k = 0; k < kinds.size(); ++k) series[k] = {kinds[k].name, static_cast<int>(k), {}};
   for (const Order::Run* run : runs) {
     const Json& estimate = member(member(member(*run->run, "best"), "parameters"), name);
@@ -220,6 +222,7 @@ void add_parameters(Page& page, const Folder& folder, const Order& order) {
   }
   add_profiles(page, folder, order);
   add_pairs(page, folder, order);
+  add_posterior(page, folder, order);
 }
 
 }  // namespace tunica::report
