@@ -22,6 +22,7 @@
 #include "execution/checkpoint.hpp"
 #include "execution/shards.hpp"
 #include "exit_codes.hpp"
+#include "experiment/limits.hpp"
 #include "fresh_process.hpp"
 #include "messages.hpp"
 #include "stages.hpp"
@@ -65,10 +66,11 @@ std::string command(const GlobalOptions& global, const RunOptions& options, cons
                     const std::vector<std::string>& how) {
   std::vector<std::string> words{"tunica", "run", options.file, "-o", directory.string()};
   words.insert(words.end(), how.begin(), how.end());
-  const auto& [seed, profiles, draws, kept, paired] = options.overrides;
+  const auto& [seed, profiles, draws, posterior, kept, paired] = options.overrides;
   if (seed) words.insert(words.end(), {"--seed", fmt::format("{}", *seed)});
   if (!profiles.empty()) words.insert(words.end(), {"--profiles", fmt::format("{}", fmt::join(profiles, ","))});
   if (draws) words.insert(words.end(), {"--bootstrap", fmt::format("{}", *draws)});
+  if (posterior) words.push_back(fmt::format("--posterior={}", *posterior));
   if (!kept.empty()) words.insert(words.end(), {"--keep-evaluations", kept});
   if (paired) words.emplace_back("--paired-starts");
   if (!options.certificate) words.emplace_back("--no-certificate");
@@ -263,6 +265,10 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
                    "Residual bootstrap with this many draws (at least 40)")
       ->check(CLI::Range(40, 1000000))
       ->type_name("N");
+  verb->add_flag_function(
+      fmt::format("--posterior{{{}}}", experiment::limits::usual_posterior_draws),
+      [options](std::int64_t draws) { options->overrides.posterior_draws = static_cast<std::uint64_t>(draws); },
+      "Draw from the posterior of the parameters, 4000 times; --posterior=20000 for another number");
   verb->add_option("--keep-evaluations", options->overrides.keep_evaluations,
                    "Rows of evaluations.csv once the results are written: all, or improvements of the best point only")
       ->type_name("all|improvements");
@@ -275,6 +281,7 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
       "  tunica run experiment.json -o results/a -j 4 --seed 7\n"
       "  tunica run experiment.json -o results/a --resume\n"
       "  tunica run experiment.json --profiles all --bootstrap 200\n"
+      "  tunica run experiment.json -o results/a --resume --posterior\n"
       "  tunica run experiment.json -o results/a --shard 2/7\n"
       "  tunica run experiment.json -o results/a --merge\n\n"
       "Writes result.json, evaluations.csv (live), fit_<test>.csv, ranking.csv, realisations.csv, convergence.csv,\n"

@@ -68,6 +68,20 @@ TEST(Overrides, NameTheProfilesOrAskForAll) {
   EXPECT_EQ(experiment.analysis.profiles, std::vector<std::string>{"a"});
 }
 
+TEST(Overrides, AskForAsManyDrawsFromThePosteriorAsTheFileCould) {
+  auto experiment = stated_experiment();
+  for (const std::uint64_t draws : {std::uint64_t{400}, std::uint64_t{1000000}}) {
+    calibration::apply({.posterior_draws = draws}, experiment);
+    EXPECT_EQ(experiment.analysis.posterior_draws, draws);
+    EXPECT_EQ(documented(experiment), stated_but("/analysis/posterior/draws", draws));
+  }
+  for (const std::uint64_t draws : {std::uint64_t{0}, std::uint64_t{399}, std::uint64_t{1000001}})
+    EXPECT_THAT(fakes::message_of([&] { calibration::apply({.posterior_draws = draws}, experiment); }),
+                HasSubstr("expected a number from 400 to 1000000"))
+        << draws;
+  EXPECT_EQ(experiment.analysis.posterior_draws, 1000000u) << "a refused number changes nothing";
+}
+
 TEST(Overrides, AskForABootstrapOfAsManyDrawsAsTheFileCould) {
   auto experiment = stated_experiment();
   for (const std::uint64_t draws : {std::uint64_t{40}, std::uint64_t{200}, std::uint64_t{1000000}}) {

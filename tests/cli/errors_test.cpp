@@ -156,6 +156,14 @@ TEST(InvalidInput, TooFewDrawsOnTheCommandLine) {
   EXPECT_THAT(ended.err, HasSubstr("--bootstrap"));
 }
 
+TEST(InvalidInput, TooFewDrawsFromThePosterior) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--posterior=5"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("5 draws are asked of the posterior; expected a number from 400 to 1000000"));
+  EXPECT_FALSE(std::filesystem::exists(bench.path("out")));
+}
+
 TEST(InvalidInput, CertificateOfWhatIsNoFinishedRun) {
   const trial::Bench bench;
   const auto ended = bench.tunica({"certify", "."});

@@ -43,6 +43,15 @@ TEST_F(AnalysisBlock, AsksForAllProfilesInOneWord) {
   EXPECT_EQ(nlohmann::json::parse(e.input_json)["analysis"]["profiles"], "all");
 }
 
+TEST_F(AnalysisBlock, AsksForDrawsFromThePosterior) {
+  const Experiment e = read(block(R"({"posterior": {"draws": 4000}})"));
+  EXPECT_EQ(e.analysis.posterior_draws, 4000u);
+  EXPECT_TRUE(e.analysis.wanted());
+  EXPECT_FALSE(e.analysis.refits());
+  EXPECT_EQ(nlohmann::json::parse(e.input_json)["analysis"]["posterior"]["draws"], 4000);
+  EXPECT_EQ(read(e.input_json).input_json, e.input_json);
+}
+
 TEST_F(AnalysisBlock, IsRefusedWithAReason) {
   const auto refused = [&](const char* text) { return refusal(block(text)); };
   expect_within(refused(R"({"profile": "all"})"), "unknown key 'profile' in \"analysis\" (/analysis/profile");
@@ -50,6 +59,8 @@ TEST_F(AnalysisBlock, IsRefusedWithAReason) {
   expect_within(refused(R"({"profiles": [3]})"), "where the name of a parameter, as in results");
   expect_within(refused(R"({"bootstrap": 200})"), "an object, {\"draws\": 200},");
   expect_within(refused(R"({"bootstrap": {"draws": 5}})"), "a whole number of draws from 40");
+  expect_within(refused(R"({"posterior": true})"), "an object, {\"draws\": 4000},");
+  expect_within(refused(R"({"posterior": {"draws": 399}})"), "a whole number of draws from 400");
   expect_within(refused(R"({"optimizer": "lmm"})"), "unknown optimizer 'lmm' (/analysis/optimizer");
   expect_within(refused(R"({"optimizer": "hybrid"})"), "the optimizer 'hybrid' has stages (/analysis/optimizer");
 }

@@ -106,6 +106,29 @@ TEST(Posterior, HasBandsOfCurvesAndOfMeasurements) {
   }
 }
 
+// Ten data sets of 200 rows, every second one held out. Of 1000 rows between 93 and 97 % lie within the band with
+// probability 0.996. Noise that is not stated has to be found from the residuals. Key 5.
+TEST(Posterior, HoldsHeldOutRowsInTheBandOfMeasurements) {
+  for (const bool stated : {true, false}) {
+    posterior::CounterRandom random(5);
+    std::size_t rows = 0, inside = 0;
+    for (int set = 0; set < 10; ++set) {
+      trial::Line line(fakes::grid(0, 7, 200), [&](std::size_t) { return 0.1 * random.normal(); });
+      if (stated) state_noise(line, 0.1);
+      line.experiment.tests.front().hold_out.rows = {0, {}, 2};
+      const auto made = sample(line.assemble(), std::vector{1.0, 2.0}, 800, 1);
+      ASSERT_TRUE(made.complete) << made.status.reason();
+      EXPECT_EQ(made.factor_known, stated);
+      rows += made.bands.held_out.rows;
+      inside += made.bands.held_out.inside;
+    }
+    EXPECT_EQ(rows, 1000u);
+    EXPECT_GE(inside, 930u);
+    EXPECT_LE(inside, 970u);
+    RecordProperty(stated ? "stated" : "estimated", static_cast<int>(inside));
+  }
+}
+
 TEST(Posterior, IsTheSameForAnyNumberOfThreads) {
   const trial::Line line;
   const auto assembly = line.assemble();

@@ -40,6 +40,21 @@ class CommandLine(Case):
         tunica.run(experiment, self.folder / "b", seed=7, profiles=["mu"], bootstrap=40, certificate=False)
         self.assertEqual(result_of(self.folder / "a"), result_of(self.folder / "b"))
 
+    def test_draws_from_the_posterior_are_those_of_the_program(self):
+        experiment = of_treloar({"type": "yeoh"})
+        (self.folder / "experiment.json").write_text(json.dumps(experiment))
+        for table in TRELOAR.glob("*.csv"):
+            (self.folder / table.name).write_bytes(table.read_bytes())
+        path = self.folder / "experiment.json"
+        program("run", path, "-o", self.folder / "a", "--posterior", "--no-certificate", "--quiet")
+        run = tunica.run(path, self.folder / "b", posterior=True, certificate=False)
+        self.assertEqual(result_of(self.folder / "a"), result_of(self.folder / "b"))
+        draws = run.posterior["c10"]
+        self.assertEqual(draws.shape, (4, 1000))
+        low, high = run.parameters["c10"].about["posterior_ci95"]
+        self.assertAlmostEqual(((draws >= low) & (draws <= high)).mean(), 0.95, delta=0.001)
+        self.assertIsNone(tunica.run(path, self.folder / "c", certificate=False).posterior)
+
     def test_paired_starts_are_those_of_the_program(self):
         experiment = of_treloar({"type": "yeoh"})
         experiment["optimizers"]["slsqp"] = {"type": "nlopt", "algorithm": "slsqp", "starts": 5}

@@ -358,10 +358,12 @@ class Best(TypedDict):
     hold_out: list[HeldOutChannel]
     #: What the data fix of these parameters, and what they do not.
     identifiability: NotRequired[list[str]]
-    #: What to know of profiles and bootstrap.
+    #: What to know of profiles, bootstrap and posterior.
     uncertainty: NotRequired[list[str]]
     #: Draws of the bootstrap. Only with --bootstrap.
     bootstrap: NotRequired[BestBootstrap]
+    #: Draws from the posterior. Only with --posterior.
+    posterior: NotRequired[BestPosterior]
 
 
 class Estimate(TypedDict):
@@ -391,6 +393,26 @@ class Estimate(TypedDict):
     mesh_bias: NotRequired[float]
     #: Percentile interval of the residual bootstrap. Only with --bootstrap. Unit: `unit`.
     bootstrap_ci95: NotRequired[list[float] | None]
+    #: 2.5 and 97.5 % of the draws from the posterior. Only with --posterior. Unit: `unit`.
+    posterior_ci95: NotRequired[list[float] | None]
+    #: What else the draws from the posterior say. Only with --posterior.
+    posterior: NotRequired[EstimatePosterior]
+
+
+class EstimatePosterior(TypedDict):
+    """What else the draws from the posterior say. Only with --posterior."""
+    #: Their mean. Unit: unit of the parameter.
+    mean: float
+    #: Their standard deviation. Unit: unit of the parameter.
+    sd: float
+    #: Their median. Unit: unit of the parameter.
+    median: float
+    #: Rank-normalised split R-hat; chains agree up to 1.01. Null where the parameter does not vary.
+    r_hat: float | None
+    #: Effective sample size of the centre. Null where the parameter does not vary.
+    ess_bulk: float | None
+    #: Effective sample size of the 5 and 95 % points, the smaller one. Null where the parameter does not vary.
+    ess_tail: float | None
 
 
 class Fit(TypedDict):
@@ -686,6 +708,43 @@ class BestBootstrap(TypedDict):
     draws: int
     #: Those that could not be.
     failed: int
+
+
+class BestPosterior(TypedDict):
+    """Draws from the posterior. Only with --posterior."""
+    #: The file of the draws, as arviz.from_json() reads it.
+    file: str
+    #: Independent chains.
+    chains: int
+    #: Draws of all chains together.
+    draws: int
+    #: Draws before them that do not count.
+    warm_up: int
+    #: Simulations with derivatives.
+    simulations: int
+    #: Those that failed; the posterior takes their parameters for impossible.
+    failed: int
+    #: Share of the moves that were taken.
+    acceptance: float
+    #: The largest of all parameters.
+    r_hat: float
+    #: The smallest effective sample size of all parameters, of centre or tails.
+    ess: float
+    #: R-hat is at most 1.01, and the effective sample size at least 400.
+    converged: bool
+    #: All noise is stated, and χ² does not contradict it; if not, one common factor of it is unknown, and integrated
+    #: out.
+    noise_known: bool
+    #: Held-out rows whose noise is known, and the 95 % band of measurements.
+    held_out: BestPosteriorHeldOut
+
+
+class BestPosteriorHeldOut(TypedDict):
+    """Held-out rows whose noise is known, and the 95 % band of measurements."""
+    #: Those that there are.
+    rows: int
+    #: Those within the band.
+    inside: int
 
 
 class Quantity(TypedDict):

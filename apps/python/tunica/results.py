@@ -186,6 +186,22 @@ class Run:
         return about and (about["parameters"], numpy.array(about["values"]))
 
     @property
+    @_once
+    def posterior(self):
+        """{name: array} of draws from the posterior, chains × draws, in base units; None where none were asked for.
+        `best["posterior"]` says whether the chains agree. arviz.from_json(run.posterior_file) reads the same."""
+        if self.posterior_file is None:
+            return None
+        draws = _saved(self.posterior_file)["posterior"]
+        return Named("parameter", {name: numpy.array(chains, dtype=float) for name, chains in draws.items()})
+
+    @property
+    def posterior_file(self):
+        """The path of the draws, or None."""
+        about = self.best.get("posterior")
+        return about and self._result.directory / about["file"]
+
+    @property
     def converged(self):
         return self.json["converged"]
 
@@ -242,6 +258,11 @@ class Result(Folder):
     def parameters(self):
         """Those of the best run."""
         return self.best.parameters
+
+    @property
+    def posterior(self):
+        """The draws of the best run, see Run.posterior."""
+        return self.best.posterior
 
     @property
     @_once

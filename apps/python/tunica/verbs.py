@@ -73,13 +73,19 @@ def _certify(folder, points):
     return answer.stdout, ""
 
 
+def _draws(posterior):
+    """How many draws of the posterior are asked for, or None."""
+    return (4000 if posterior else None) if posterior is None or isinstance(posterior, bool) else posterior
+
+
 def run(experiment, directory=None, *, base=None, threads=None, seed=None, profiles=(), bootstrap=None,
-        paired_starts=False, resume=False, certificate=True, progress=None):
+        posterior=None, paired_starts=False, resume=False, certificate=True, progress=None):
     """Calibrates every entry of "runs" and compares them, as `tunica run` does; returns a Result.
 
     experiment: the path of a file, a dictionary, or an Experiment. directory: a new folder for the results; without
     it results/<name>-<n>. threads: all of the machine unless given; results do not depend on it. progress: True for a
     line on stderr, or a function that is called with the share that is done and a line of text.
+    posterior: how often to draw from the posterior of every run, or True for 4000 times: Run.posterior has the draws.
     paired_starts: runs of the same parameters and bounds begin at the same points, as the key of that name says.
 
     Ctrl-C raises Interrupted. Everything so far is saved, and the same call with its `directory` and resume=True goes
@@ -91,7 +97,7 @@ def run(experiment, directory=None, *, base=None, threads=None, seed=None, profi
     names = ["all"] if profiles == "all" else texts(profiles, "profiles")
     try:
         found = _core.run(found_experiment._loaded, path(directory, "directory"), resume,
-                          _threads(threads), seed, names, bootstrap, bool(paired_starts), listener,
+                          _threads(threads), seed, names, bootstrap, _draws(posterior), bool(paired_starts), listener,
                           _certify if certificate else None)
     finally:
         if isinstance(listener, _Line):

@@ -12,7 +12,7 @@
 namespace tunica::calibration {
 
 void apply(const Overrides& overrides, experiment::Experiment& experiment) {
-  if (!overrides.seed && overrides.profiles.empty() && !overrides.bootstrap_draws &&
+  if (!overrides.seed && overrides.profiles.empty() && !overrides.bootstrap_draws && !overrides.posterior_draws &&
       overrides.keep_evaluations.empty() && !overrides.paired_starts)
     return;
   auto input = nlohmann::ordered_json::parse(experiment.input_json);
@@ -35,6 +35,14 @@ void apply(const Overrides& overrides, experiment::Experiment& experiment) {
                                    *overrides.bootstrap_draws, least_draws, draws));
     analysis.bootstrap_draws = *overrides.bootstrap_draws;
     input["analysis"]["bootstrap"]["draws"] = *overrides.bootstrap_draws;
+  }
+  if (overrides.posterior_draws) {
+    using namespace experiment::limits;
+    if (*overrides.posterior_draws < least_posterior_draws || *overrides.posterior_draws > draws)
+      throw InputError(fmt::format("{} draws are asked of the posterior; expected a number from {} to {}",
+                                   *overrides.posterior_draws, least_posterior_draws, draws));
+    analysis.posterior_draws = *overrides.posterior_draws;
+    input["analysis"]["posterior"]["draws"] = *overrides.posterior_draws;
   }
   if (!overrides.keep_evaluations.empty()) {
     const auto kept = text::value_of(experiment::kept_evaluations_names, overrides.keep_evaluations);

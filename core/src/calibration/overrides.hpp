@@ -15,6 +15,7 @@ struct Overrides {
   std::optional<std::uint64_t> seed = {};
   std::vector<std::string> profiles = {};  ///< names of parameters, or "all"; empty = as the file says
   std::optional<std::uint64_t> bootstrap_draws = {};
+  std::optional<std::uint64_t> posterior_draws = {};
   std::string keep_evaluations = {};  ///< "all" or "improvements"; empty = as the file says
   bool paired_starts = false;         ///< as the key of that name; false = as the file says
 };

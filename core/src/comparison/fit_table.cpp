@@ -33,9 +33,14 @@ struct Extra {
   const char* name;
   std::vector<double> RunSummary::*values;
 };
-constexpr std::array<Extra, 3> extras{{{"ci95", &RunSummary::curve_ci95},
+constexpr std::array<Extra, 8> extras{{{"ci95", &RunSummary::curve_ci95},
                                        {"lowest", &RunSummary::curve_lowest},
-                                       {"highest", &RunSummary::curve_highest}}};
+                                       {"highest", &RunSummary::curve_highest},
+                                       {"posterior_low", &RunSummary::posterior_lower},
+                                       {"posterior_median", &RunSummary::posterior_median},
+                                       {"posterior_high", &RunSummary::posterior_upper},
+                                       {"measured_low", &RunSummary::measured_lower},
+                                       {"measured_high", &RunSummary::measured_upper}}};
 
 std::vector<Fit> fits_of(const execution::Plan& plan, const Summary& summary, const std::string& test) {
   std::vector<Fit> fits;

@@ -151,7 +151,7 @@ std::string ranking_lines(const Summary& summary) {
   return text + text::hanging("   ", explanation(columns)) + '\n';
 }
 
-/// "profile (21.9 … 23.1), bootstrap (22 … 22.9)"
+/// "profile (21.9 … 23.1), bootstrap (22 … 22.9), posterior (21.8 … 23), median 22.3"
 std::string other_intervals(const Estimate& estimate) {
   const auto end = [](const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "open"; };
   std::string text;
@@ -160,6 +160,9 @@ std::string other_intervals(const Estimate& estimate) {
   if (estimate.bootstrap)
     text += fmt::format("{}bootstrap ({:.4g} … {:.4g})", text.empty() ? "" : ", ", estimate.bootstrap->first,
                         estimate.bootstrap->second);
+  if (estimate.posterior)
+    text += fmt::format("{}posterior ({:.4g} … {:.4g}), median {:.4g}", text.empty() ? "" : ", ",
+                        estimate.posterior->lower, estimate.posterior->upper, estimate.posterior->median);
   return text;
 }
 

@@ -158,6 +158,31 @@ json misfit_size(const RunSummary& run) {
           {"channels", channel_sizes_json(run.sizes)}};
 }
 
+json posterior_of(const PosteriorMarginal& found) {
+  const auto judged = [](double value) { return std::isfinite(value) ? json(value) : json(nullptr); };
+  return {{"mean", found.mean},
+          {"sd", found.sd},
+          {"median", found.median},
+          {"r_hat", judged(found.r_hat)},
+          {"ess_bulk", judged(found.bulk)},
+          {"ess_tail", judged(found.tail)}};
+}
+
+json posterior_of(const PosteriorSummary& found) {
+  return {{"file", found.file},
+          {"chains", found.chains},
+          {"draws", found.draws},
+          {"warm_up", found.warm_up},
+          {"simulations", found.evaluations},
+          {"failed", found.failures},
+          {"acceptance", found.acceptance},
+          {"r_hat", found.r_hat},
+          {"ess", found.effective_size},
+          {"converged", found.converged},
+          {"noise_known", found.factor_known},
+          {"held_out", {{"rows", found.held_out_rows}, {"inside", found.held_out_inside}}}};
+}
+
 json best(const RunSummary& run) {
   json parameters = json::object();
   for (const auto& parameter : run.parameters) {
@@ -174,6 +199,10 @@ json best(const RunSummary& run) {
       entry["profile_ci95"] = {or_null(parameter.profile->lower), or_null(parameter.profile->upper)};
     if (parameter.mesh_bias) entry["mesh_bias"] = *parameter.mesh_bias;
     if (run.bootstrap) entry["bootstrap_ci95"] = interval(parameter.bootstrap);
+    if (parameter.posterior) {
+      entry["posterior_ci95"] = {parameter.posterior->lower, parameter.posterior->upper};
+      entry["posterior"] = posterior_of(*parameter.posterior);
+    }
   }
   json per_test = json::object();
   for (std::size_t test = 0; test < run.tests.size(); ++test) {
@@ -216,6 +245,7 @@ json best(const RunSummary& run) {
   if (!run.identifiability.empty()) result["identifiability"] = run.identifiability;
   if (!run.uncertainty.empty()) result["uncertainty"] = run.uncertainty;
   if (run.bootstrap) result["bootstrap"] = {{"draws", run.bootstrap->made}, {"failed", run.bootstrap->failed}};
+  if (run.posterior) result["posterior"] = posterior_of(*run.posterior);
   return result;
 }
 

@@ -29,6 +29,23 @@ struct ProfileInterval {
   std::optional<double> lower, upper;
 };
 
+/// What draws from the posterior say of a parameter.
+struct PosteriorMarginal {
+  double mean = 0, sd = 0, lower = 0, median = 0, upper = 0;  ///< 2.5, 50 and 97.5 %
+  double r_hat = 0, bulk = 0, tail = 0;                       ///< see posterior/convergence.hpp
+};
+
+/// Draws from the posterior of a run.
+struct PosteriorSummary {
+  std::string file;  ///< of the draws
+  std::size_t chains = 0, draws = 0, warm_up = 0;
+  std::size_t evaluations = 0, failures = 0;
+  double acceptance = 0;                 ///< mean
+  double r_hat = 0, effective_size = 0;  ///< the worst of all parameters
+  bool converged = false, factor_known = true;
+  std::size_t held_out_rows = 0, held_out_inside = 0;  ///< of the band of measurements
+};
+
 /// One parameter at the best point of a run.
 struct Estimate {
   enum class Bound { none, lower, upper };
@@ -43,6 +60,7 @@ struct Estimate {
   [[nodiscard]] bool mesh_bias_matters() const {
     return mesh_bias && ci95 && std::abs(*mesh_bias) > (ci95->second - ci95->first) / 6;
   }
+  std::optional<PosteriorMarginal> posterior;
   bool straight = true;     ///< ci95 can be believed, see uncertainty/straightness.hpp
   bool identified = false;  ///< the data fix it, apart from a bound
   bool held = false;        ///< a constraint fixes it
@@ -132,13 +150,16 @@ struct RunSummary {
   /// Of all predictions of the best point, by Layout::channels: half width of the 95 % interval that the noise of
   /// the data leaves them; and the range over the best points of all realisations. Each empty where there is none.
   std::vector<double> curve_ci95, curve_lowest, curve_highest;
+  /// By the posterior: 2.5, 50 and 97.5 % of the curves, and 2.5 and 97.5 % of measurements. Each empty without.
+  std::vector<double> posterior_lower, posterior_median, posterior_upper, measured_lower, measured_upper;
   ParameterCovariance covariance;
   std::vector<std::string> identifiability;  ///< sentences
-  std::vector<std::string> uncertainty;      ///< sentences on profiles and bootstrap
+  std::vector<std::string> uncertainty;      ///< sentences on profiles, bootstrap and posterior
   struct Draws {
     std::size_t made = 0, failed = 0;
   };
   std::optional<Draws> bootstrap;
+  std::optional<PosteriorSummary> posterior;
 
   std::uint64_t realisations = 0, best_realisation = 0, best_id = 0;  ///< both from 1, as in evaluations.csv
   SampleStatistics objectives;                                        ///< of the realisations that have a result

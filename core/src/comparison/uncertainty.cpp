@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "comparison/fit_table.hpp"
+#include "comparison/posterior_output.hpp"
 #include "comparison/uncertainty_tables.hpp"
 #include "comparison/uncertainty_words.hpp"
 #include "data/nearest.hpp"
@@ -105,7 +107,7 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
           "{}: no run searches for both '{}' and '{}', the parameters of the stability map; free both in one",
           analysis.map_places.at(map[0]), map[0], map[1]));
   }
-  if (analysis.wanted()) static_cast<void>(local_optimizer(*plan.experiment, catalogue));
+  if (analysis.refits()) static_cast<void>(local_optimizer(*plan.experiment, catalogue));
 }
 
 void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,
@@ -115,7 +117,9 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
     for (auto& run : summary.runs) add_words(run);
     return;
   }
-  const auto optimizer = local_optimizer(*plan.experiment, catalogue);
+  uncertainty::LocalOptimizer optimizer;
+  if (analysis.refits()) optimizer = local_optimizer(*plan.experiment, catalogue);
+  bool has_posterior = false;
   std::vector<RunProfiles> profiled;
   std::vector<RunDraws> drawn;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
@@ -165,11 +169,25 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
         drawn.push_back({&assembly, own.label, std::move(made)});
       }
     }
+    if (analysis.posterior_draws > 0) {
+      if (told) told("posterior of " + own.label);
+      const auto made = posterior::sample(assembly, best, analysis.posterior_draws, seed, interrupted);
+      if (!made.status.ok()) {
+        own.uncertainty.push_back("no posterior: " + made.status.reason());
+      } else if (!made.complete) {
+        if (work.is_over()) say_left_out("no posterior", *max_time, own);
+      } else {
+        add_posterior(assembly, made, own);
+        own.posterior->file = write_posterior(directory, assembly, made, own.label);
+        has_posterior = true;
+      }
+    }
     add_words(own);
     if (interrupted && interrupted()) return;
   }
   write_profiles(directory, profiled);
   write_bootstrap(directory, drawn);
+  if (has_posterior) write_fit_tables(directory, plan, summary);  // with its bands
 }
 
 }  // namespace tunica::comparison

@@ -134,7 +134,7 @@ void warn_of_idle_keys(const experiment::Experiment& experiment, const Plan& pla
     if (run.entry->fewer_simulations.guide && !run.assembly->layout().has_costly_tests)
       warnings.push_back(
           {WarningKind::set_up, "\"guide\" changes nothing, as no test of the run is costly: leave it out", run.label});
-  if (!experiment.analysis.optimizer.empty() && !experiment.analysis.wanted())
+  if (!experiment.analysis.optimizer.empty() && !experiment.analysis.refits())
     warnings.push_back({WarningKind::set_up,
                         fmt::format("the optimizer '{}' of \"analysis\" changes nothing without refits: leave it out, "
                                     "or ask for \"profiles\" or \"bootstrap\"",

@@ -186,6 +186,7 @@ struct Analysis {
   bool all_profiles = false;
   std::vector<std::string> profiles;  ///< parameters as results name them; checked where the run is planned
   std::uint64_t bootstrap_draws = 0;  ///< 0 = no bootstrap
+  std::uint64_t posterior_draws = 0;  ///< of all chains together; 0 = none
   std::string optimizer;              ///< an entry of "optimizers"; empty = ceres_lm from the best point
   std::optional<double>
       stability_to;  ///< judge ellipticity and Drucker to this stretch instead of the largest measured
@@ -200,7 +201,9 @@ struct Analysis {
     const auto found = profile_places.find(name);
     return found == profile_places.end() ? "--profiles" : found->second;
   }
-  [[nodiscard]] bool wanted() const { return all_profiles || !profiles.empty() || bootstrap_draws > 0; }
+  /// Whether something is to be fitted again.
+  [[nodiscard]] bool refits() const { return all_profiles || !profiles.empty() || bootstrap_draws > 0; }
+  [[nodiscard]] bool wanted() const { return refits() || posterior_draws > 0; }
 };
 
 struct Experiment {

@@ -107,7 +107,7 @@ std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Cat
 }
 
 void read_analysis(const Node& node, Experiment& experiment) {
-  node.allow_only({"profiles", "bootstrap", "optimizer", "stability"}, "\"analysis\"");
+  node.allow_only({"profiles", "bootstrap", "posterior", "optimizer", "stability"}, "\"analysis\"");
   Analysis& analysis = experiment.analysis;
   if (const auto profiles = node.find("profiles")) {
     if (profiles->is_text()) {
@@ -126,6 +126,12 @@ void read_analysis(const Node& node, Experiment& experiment) {
     bootstrap->allow_only({"draws"}, "\"bootstrap\"");
     analysis.bootstrap_draws = bootstrap->require("draws", "\"bootstrap\"")
                                    .count("a whole number of draws", limits::least_draws, limits::draws);
+  }
+  if (const auto posterior = node.find("posterior")) {
+    posterior->expect_object("an object, {\"draws\": 4000},");
+    posterior->allow_only({"draws"}, "\"posterior\"");
+    analysis.posterior_draws = posterior->require("draws", "\"posterior\"")
+                                   .count("a whole number of draws", limits::least_posterior_draws, limits::draws);
   }
   if (const auto optimizer = node.find("optimizer")) {
     analysis.optimizer = optimizer->one_of(entry_names(experiment.optimizers), "optimizer");

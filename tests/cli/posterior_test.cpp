@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "cli/bench.hpp"
+
+using namespace tunica;
+using ::testing::HasSubstr;
+
+TEST(PosteriorOfARun, IsDrawnAlsoWhenTheRunHasFinished) {
+  trial::Bench bench;
+  bench.experiment["runs"][1] = {{"model", "gho"}, {"optimizer", "lm"}};
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  const auto before = bench.text("out/evaluations.csv");
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--resume", "--posterior=800"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(bench.text("out/evaluations.csv"), before);
+  EXPECT_THAT(ended.out, HasSubstr("posterior ("));
+  const auto best = bench.result("out")["runs"][0]["best"];
+  EXPECT_EQ(best["posterior"]["draws"], 800);
+  EXPECT_EQ(best["posterior"]["chains"], 4);
+  const auto& mu = best["parameters"]["mu"];
+  EXPECT_LT(mu["posterior_ci95"][0], mu["posterior"]["median"]);
+  EXPECT_GT(mu["posterior_ci95"][1], mu["posterior"]["median"]);
+  const std::string file = "out/" + best["posterior"]["file"].get<std::string>();
+  const auto draws = nlohmann::json::parse(bench.text(file));
+  for (const auto* name : {"lp", "acceptance_rate"}) EXPECT_EQ(draws["sample_stats"][name].size(), 4u);
+  double sum = 0;
+  for (const auto& chain : draws["posterior"]["mu"]) {
+    ASSERT_EQ(chain.size(), 200u);
+    for (const auto& value : chain) sum += value.get<double>() / 800;
+  }
+  EXPECT_NEAR(sum, mu["posterior"]["mean"], 1e-9 * sum);
+  const std::string page = bench.text("out/report.html");
+  EXPECT_THAT(page, HasSubstr("Posterior of"));
+  // The same for another number of threads.
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "one", "-j", "1", "--posterior=800"}).code, 0);
+  EXPECT_EQ(bench.text("one" + file.substr(3)), bench.text(file));
+}
+
+// What a run leaves that is killed while its chains are drawn: they are drawn anew, to the same bits.
+TEST(PosteriorOfARun, IsDrawnAnewWhereItWasInterrupted) {
+  trial::Bench bench;
+  bench.experiment["analysis"]["posterior"]["draws"] = 400;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  const std::string file = "out/" + bench.result("out")["runs"][0]["best"]["posterior"]["file"].get<std::string>();
+  const auto draws = bench.text(file);
+  std::filesystem::remove(bench.path("out/result.json"));
+  std::filesystem::remove(bench.path(file));
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--resume"}).code, 0);
+  EXPECT_EQ(bench.text(file), draws);
+}
