@@ -76,12 +76,21 @@ def plate_with_hole(length, width, radius):
 
 
 def solve(folder, mesh, length, card, stretches, marks, first=0.5):
-    """Force on the grip per mm of thickness, in the units of the card times mm, and the distance of marks over that
-    unloaded, at every stretch of the grips. `marks`: (x, y) of nodes on an axis. `first`: the first part of a step that is tried."""
+    """Force on the grip as run() has it, and the distance of marks over that unloaded, at every stretch of the grips.
+    `marks`: (x, y) of nodes on an axis."""
+    nodes = [mesh.node_at(*mark) for mark in marks]
+    forces, moved = run(folder, mesh, length, card, stretches, nodes, first)
+    return forces, [[1 + max(found[n][0] / x if x else 0, -9) if x else 1 + found[n][1] / y for n, (x, y) in zip(nodes, marks)]
+                    for found in moved]
+
+
+def run(folder, mesh, length, card, stretches, nodes, first=0.5):
+    """Force on the grip per mm of thickness, in the units of the card times mm, and {node: displacement} of these nodes,
+    at every stretch of the grips. `first`: the first part of a step that is tried."""
     near = 1e-9 * length
     sets = {"GRIP": mesh.where(lambda x, y, z: abs(x - length / 2) < near), "X0": mesh.where(lambda x, y, z: abs(x) < near),
             "Y0": mesh.where(lambda x, y, z: abs(y) < near), "Z0": mesh.where(lambda x, y, z: abs(z) < near),
-            "MARKS": [mesh.node_at(*mark) for mark in marks]}
+            "MARKS": nodes}
     text = "*NODE, NSET=NALL\n" + "".join(f"{n}, {x:.12g}, {y:.12g}, {z:.12g}\n" for n, (x, y, z) in mesh.nodes.items())
     text += "*ELEMENT, TYPE=C3D20R, ELSET=EALL\n"
     for number, element in enumerate(mesh.elements, 1):
@@ -111,6 +120,5 @@ def solve(folder, mesh, length, card, stretches, marks, first=0.5):
             for row in lines[at + 2:at + 2 + len(set(sets["MARKS"]))]:
                 words = row.split()
                 found[int(words[0])] = [float(word) for word in words[1:4]]
-            moved.append([1 + max(found[n][0] / x if x else 0, -9) if x else 1 + found[n][1] / y
-                          for n, (x, y) in zip(sets["MARKS"], marks)])
+            moved.append(found)
     return forces, moved
