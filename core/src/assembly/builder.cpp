@@ -127,7 +127,7 @@ void look_at_sizes(const experiment::TestEntry& entry, std::vector<std::string>&
   const auto compare = [&](const char* option, const char* size, const std::optional<double>& of_specimen) {
     if (!of_specimen || !entry.options.has(option)) return;
     const double simulated = entry.options.number(option);
-    if (std::abs(simulated - *of_specimen) <= 1e-6 * *of_specimen) return;
+    if (simulated == 0 || std::abs(simulated - *of_specimen) <= 1e-6 * *of_specimen) return;  // 0: not stated
     warnings.push_back(
         fmt::format("test '{}': its \"{}\" is {:g} mm, and the \"{}\" of the specimen, which the program divides by, "
                     "{:g} mm; correct "
