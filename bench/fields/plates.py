@@ -12,6 +12,7 @@ given: with the true parameters, both are reproduced to 3e-4 and to all digits. 
 import argparse
 import csv
 import json
+import subprocess
 from pathlib import Path
 
 
@@ -45,6 +46,7 @@ def experiment(noise, model, size="0.06 mm"):
                 "type": "full_field",
                 "thickness": "1 mm",
                 "state": "plane_strain",
+                "material_angle": "90 deg",
                 "shape": {"rectangle": ["1 mm", "1 mm"], "holes": [{"centre": [0, 0], "radius": "0.1 mm"}]},
                 "mesh": {"size": size},
                 "boundary": {"left": {"x": "fixed"}, "right": {"x": "uniform"}, "bottom": {"y": "fixed"},
@@ -64,12 +66,45 @@ def experiment(noise, model, size="0.06 mm"):
     }
 
 
-if __name__ == "__main__":
+VOLUME = {"type": "compressibility", "invariants": "isochoric", "law": "quadratic"}
+# Plate: model, and what its parameters are in the data.
+PLATES = {
+    "neohookean": ({"type": "neo_hooke", "mechanisms": [VOLUME]}, {"mu": 1, "compressibility.compliance": 1 / 3}),
+    "isihara": ({"type": "composed", "mechanisms": [VOLUME],
+                 "terms": [{"name": "first", "invariant": "I1", "law": "linear"},
+                           {"name": "second", "invariant": "I2", "law": "linear"},
+                           {"name": "square", "invariant": "I1", "law": "quadratic"}]},
+                {"first_mu": 1, "second_mu": 2, "square_k": 2, "compressibility.compliance": 1 / 3}),
+    "holzapfel": ({"type": "hgo", "fibre_switch": "none", "mechanisms": [VOLUME],
+                   "parameters": {"theta": {"min": 5, "max": 85, "initial": 45}}},
+                  {"mu": 1, "k1": 0.9, "k2": 0.8, "theta": 30, "compressibility.compliance": 0.5}),
+}
+
+
+def main():
     arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("source", type=Path, help="a folder with nodes.csv, elements.csv, displacements.csv, forces.csv")
-    arguments.add_argument("out", type=Path)
-    arguments.add_argument("--noise", default="1e-4 mm")
+    arguments.add_argument("tunica", help="the program")
+    arguments.add_argument("data", type=Path, help="the folder with neohookean_low, isihara_low, ...")
+    arguments.add_argument("out", type=Path, help="a new folder")
+    arguments.add_argument("--only", nargs="*", help="plates such as neohookean_low")
     given = arguments.parse_args()
-    convert(given.source, given.out)
-    neo_hooke = {"type": "neo_hooke", "mechanisms": [{"type": "compressibility", "invariants": "isochoric", "law": "quadratic"}]}
-    (given.out / "experiment.json").write_text(json.dumps(experiment(given.noise, neo_hooke), indent=1))
+    for name in given.only or [f"{plate}_{level}" for plate in PLATES for level in ("low", "high")]:
+        plate, level = name.split("_")
+        model, truth = PLATES[plate]
+        folder = given.out / name
+        convert(given.data / name, folder)
+        (folder / "experiment.json").write_text(
+            json.dumps(experiment("1e-4 mm" if level == "low" else "1e-3 mm", model), indent=1), encoding="utf-8")
+        subprocess.run([given.tunica, "run", folder / "experiment.json", "-o", folder / "results", "--quiet"], check=True,
+                       stdout=subprocess.DEVNULL)
+        result = json.loads((folder / "results/result.json").read_text(encoding="utf-8"))
+        found = result["runs"][0]["best"]["parameters"]
+        for parameter, value in truth.items():
+            low, high = found[parameter]["ci95"]
+            off = 100 * (found[parameter]["value"] / value - 1)
+            print(f"{name:16} {parameter:28} {value:8.4g} {found[parameter]['value']:9.5g} ({low:.5g} .. {high:.5g}) {off:+.2f} %",
+                  flush=True)
+
+
+if __name__ == "__main__":
+    main()
