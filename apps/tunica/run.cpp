@@ -266,8 +266,11 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
       ->check(CLI::Range(40, 1000000))
       ->type_name("N");
   verb->add_flag_function(
-      fmt::format("--posterior{{{}}}", experiment::limits::usual_posterior_draws),
-      [options](std::int64_t draws) { options->overrides.posterior_draws = static_cast<std::uint64_t>(draws); },
+      "--posterior",
+      [options](std::int64_t draws) {  // 1 where no number is given
+        options->overrides.posterior_draws = draws == 1 ? experiment::limits::usual_posterior_draws
+                                                        : static_cast<std::uint64_t>(std::max(draws, std::int64_t{0}));
+      },
       "Draw from the posterior of the parameters, 4000 times; --posterior=20000 for another number");
   verb->add_option("--keep-evaluations", options->overrides.keep_evaluations,
                    "Rows of evaluations.csv once the results are written: all, or improvements of the best point only")

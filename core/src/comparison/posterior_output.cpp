@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/posterior_output.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -10,6 +11,7 @@
 
 #include "comparison/fit_table.hpp"
 #include "execution/files.hpp"
+#include "experiment/limits.hpp"
 #include "text/lists.hpp"
 
 namespace tunica::comparison {
@@ -19,6 +21,7 @@ namespace {
 using posterior::Chain;
 using posterior::Posterior;
 
+constexpr std::size_t most_draws = experiment::limits::draws;
 constexpr double shifted_limit = 0.5;  ///< of the linearised half width
 
 /// [[chain 1], [chain 2], …]
@@ -48,7 +51,7 @@ void add_convergence_words(const Posterior& made, RunSummary& summary) {
                            "effective sample size {:.0f} (at least {:g}), so its quantiles are rough; draw more with "
                            "--posterior={}",
                            text::joined(names), made.r_hat(), posterior::largest_r_hat, made.effective_size(),
-                           posterior::least_effective_size, 4 * made.draws()));
+                           posterior::least_effective_size, std::min(4 * made.draws(), most_draws)));
 }
 
 void add_disagreements(const Posterior& made, RunSummary& summary) {
