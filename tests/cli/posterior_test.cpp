@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "cli/bench.hpp"
@@ -48,4 +51,34 @@ TEST(PosteriorOfARun, IsDrawnAnewWhereItWasInterrupted) {
   std::filesystem::remove(bench.path(file));
   ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--resume"}).code, 0);
   EXPECT_EQ(bench.text(file), draws);
+}
+
+// The linearised limits are compared here once more, from what result.json says.
+TEST(PosteriorOfARun, WarnsOfShortChainsAndOfLimitsElsewhere) {
+  trial::Bench bench;
+  bench.experiment["runs"][1] = {{"model", "gho"}, {"optimizer", "lm"}};
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--posterior=400"}).code, 0);
+  const auto result = bench.result("out");
+  int short_chains = 0, elsewhere = 0;
+  for (const auto& run : result["runs"]) {
+    const auto& best = run["best"];
+    const auto told = [&](const char* kind) {
+      return std::any_of(result["warning_details"].begin(), result["warning_details"].end(),
+                         [&](const auto& warning) { return warning["kind"] == kind && warning["run"] == run["run"]; });
+    };
+    bool differs = false;
+    for (const auto& parameter : best["parameters"]) {
+      const auto &linear = parameter["ci95"], &drawn = parameter["posterior_ci95"];
+      if (linear.is_null()) continue;
+      const double half = (linear[1].get<double>() - linear[0].get<double>()) / 2;
+      for (const std::size_t end : {0, 1})
+        differs = differs || std::abs(linear[end].get<double>() - drawn[end].get<double>()) > half / 2;
+    }
+    EXPECT_EQ(told("posterior_not_converged"), !best["posterior"]["converged"].get<bool>()) << run["run"];
+    EXPECT_EQ(told("posterior_disagrees"), differs) << run["run"];
+    short_chains += told("posterior_not_converged");
+    elsewhere += told("posterior_disagrees");
+  }
+  EXPECT_GT(short_chains, 0) << "400 draws are worth fewer";
+  RecordProperty("elsewhere", elsewhere);
 }

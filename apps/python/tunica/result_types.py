@@ -129,7 +129,7 @@ Likelihood = Literal["stated", "estimated", "mixed"]
 
 #: Why a mechanism is not looked for, or would not be seen.
 MechanismAbsence = Literal["none", "no_trace", "absorbed", "no_clock", "already_there", "no_place", "not_applicable",
-    "isotropic", "no_volume", "no_size", "no_past"]
+    "isotropic", "no_volume", "no_past"]
 
 #: What the noise of a channel rests on.
 NoiseOrigin = Literal["stated", "replicates", "smooth_shapes", "assumed"]
@@ -179,14 +179,14 @@ VectorLevel = Literal["baseline", "avx2", "avx512", "several"]
 
 #: What a warning is about.
 WarningKind = Literal["misfit_out_of_scale", "no_misfit", "noise_contradicted", "search_fell_short", "noise_too_large",
-    "mesh_biases_parameters", "small_misfit", "no_result", "no_feasible_point", "not_repeatable", "not_evaluated_again",
-    "not_linearised", "predicts_worse", "unstable", "ellipticity_lost", "drucker_lost", "inadmissible_parameters",
-    "at_bound", "stopped_at_default_bound", "bound_in_comparison", "not_fixed_by_data", "failed_evaluations",
-    "optimizer_failure", "same_course", "given_up", "depends_on_time", "prior", "held_out", "not_comparable",
-    "other_model_preferred", "certificate_failed", "objective_differs", "not_an_optimum", "differenced_derivatives",
-    "equal_realisations", "plugin_refused", "order_assumed", "record_broken", "record_softening", "record_jump",
-    "record_repeated", "record_coarse", "record_sign", "record_time", "record_short", "record_percent", "record_size",
-    "record_angle", "record_noise", "header_measure", "header_strain", "set_up"]
+    "small_misfit", "no_result", "no_feasible_point", "not_repeatable", "not_evaluated_again", "not_linearised",
+    "predicts_worse", "unstable", "ellipticity_lost", "drucker_lost", "inadmissible_parameters", "at_bound",
+    "stopped_at_default_bound", "bound_in_comparison", "not_fixed_by_data", "failed_evaluations", "optimizer_failure",
+    "same_course", "given_up", "depends_on_time", "prior", "held_out", "not_comparable", "other_model_preferred",
+    "certificate_failed", "objective_differs", "not_an_optimum", "differenced_derivatives", "equal_realisations",
+    "plugin_refused", "order_assumed", "record_broken", "record_softening", "record_jump", "record_repeated",
+    "record_coarse", "record_sign", "record_time", "record_short", "record_percent", "record_size", "record_angle",
+    "record_noise", "header_measure", "header_strain", "posterior_not_converged", "posterior_disagrees", "set_up"]
 
 
 class Result(TypedDict):
@@ -388,9 +388,6 @@ class Estimate(TypedDict):
     #: Where the profile likelihood crosses its threshold; null on a side where it stays below as far as the bound. Only
     #: with --profiles. Unit: `unit`.
     profile_ci95: NotRequired[list[float | None]]
-    #: Value less what finite elements on a finer mesh would give, estimated in one linearised step. Only where a test
-    #: compares itself with a finer mesh, and the data fix the parameter. Unit: `unit`.
-    mesh_bias: NotRequired[float]
     #: Percentile interval of the residual bootstrap. Only with --bootstrap. Unit: `unit`.
     bootstrap_ci95: NotRequired[list[float] | None]
     #: 2.5 and 97.5 % of the draws from the posterior. Only with --posterior. Unit: `unit`.

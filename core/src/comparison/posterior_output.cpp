@@ -18,6 +18,7 @@ namespace tunica::comparison {
 
 namespace {
 
+using execution::WarningKind;
 using posterior::Chain;
 using posterior::Posterior;
 
@@ -38,23 +39,27 @@ std::string by_chain(const Posterior& made, const std::function<double(const Cha
 
 void say(RunSummary& summary, std::string sentence) { summary.uncertainty.push_back(std::move(sentence)); }
 
-void add_convergence_words(const Posterior& made, RunSummary& summary) {
-  std::vector<std::string> names;
-  for (std::size_t j = 0; j < made.parameters.size(); ++j) {
-    const auto& found = made.parameters[j].convergence;
-    if (!(found.r_hat <= posterior::largest_r_hat) ||
-        !(std::min(found.bulk, found.tail) >= posterior::least_effective_size))
-      names.push_back(summary.parameters[j].name);
-  }
-  if (names.empty()) return;
-  say(summary, fmt::format("the chains of the posterior are too short for {}: R-hat is {:.3f} (at most {:g}), the "
-                           "effective sample size {:.0f} (at least {:g}), so its quantiles are rough; draw more with "
-                           "--posterior={}",
-                           text::joined(names), made.r_hat(), posterior::largest_r_hat, made.effective_size(),
-                           posterior::least_effective_size, std::min(4 * made.draws(), most_draws)));
+/// Whether quantiles of the parameter can be read.
+bool is_settled(const posterior::Convergence& found) {
+  return found.r_hat <= posterior::largest_r_hat && std::min(found.bulk, found.tail) >= posterior::least_effective_size;
 }
 
-void add_disagreements(const Posterior& made, RunSummary& summary) {
+void warn_of_short_chains(const Posterior& made, const RunSummary& summary, std::vector<execution::Warning>& warnings) {
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < made.parameters.size(); ++j)
+    if (!is_settled(made.parameters[j].convergence)) names.push_back(summary.parameters[j].name);
+  if (names.empty()) return;
+  warnings.push_back(
+      {WarningKind::posterior_not_converged,
+       fmt::format("the chains of the posterior are too short for {}: R-hat is {:.3f} (at most {:g}), the effective "
+                   "sample size {:.0f} (at least {:g}), so quantiles are rough. Draw more with --posterior={}",
+                   text::joined(names), made.r_hat(), posterior::largest_r_hat, made.effective_size(),
+                   posterior::least_effective_size, std::min(4 * made.draws(), most_draws)),
+       summary.label, names});
+}
+
+void warn_of_disagreement(const Posterior& made, RunSummary& summary, std::vector<execution::Warning>& warnings) {
+  std::vector<std::string> names;
   for (std::size_t j = 0; j < made.parameters.size(); ++j) {
     const Estimate& estimate = summary.parameters[j];
     if (!estimate.ci95) continue;
@@ -63,16 +68,22 @@ void add_disagreements(const Posterior& made, RunSummary& summary) {
     if (std::abs(found.lower - estimate.ci95->first) <= allowed &&
         std::abs(found.upper - estimate.ci95->second) <= allowed)
       continue;
-    say(summary,
-        fmt::format("{}: the posterior ({:.4g} … {:.4g}) and the linearised interval ({:.4g} … {:.4g}) disagree: "
-                    "the likelihood is not quadratic there, or a bound or prior cuts it off; take the posterior",
-                    estimate.name, found.lower, found.upper, estimate.ci95->first, estimate.ci95->second));
+    names.push_back(estimate.name);
+    say(summary, fmt::format("{}: the posterior ({:.4g} … {:.4g}) and the linearised interval ({:.4g} … {:.4g}) "
+                             "disagree: the likelihood is not quadratic there, or a bound or prior cuts it off",
+                             estimate.name, found.lower, found.upper, estimate.ci95->first, estimate.ci95->second));
   }
+  if (names.empty()) return;
+  warnings.push_back({WarningKind::posterior_disagrees,
+                      fmt::format("the posterior and the linearised {} of {} disagree. Take the posterior",
+                                  names.size() == 1 ? "interval" : "intervals", text::joined(names)),
+                      summary.label, names});
 }
 
 }  // namespace
 
-void add_posterior(const assembly::Assembly& assembly, const Posterior& made, RunSummary& summary) {
+void add_posterior(const assembly::Assembly& assembly, const Posterior& made, RunSummary& summary,
+                   std::vector<execution::Warning>& warnings) {
   PosteriorSummary found;
   found.chains = made.chains.size();
   found.draws = made.draws();
@@ -105,8 +116,8 @@ void add_posterior(const assembly::Assembly& assembly, const Posterior& made, Ru
   summary.posterior_upper = made.bands.upper;
   summary.measured_lower = made.bands.lowest_measured;
   summary.measured_upper = made.bands.highest_measured;
-  add_convergence_words(made, summary);
-  add_disagreements(made, summary);
+  warn_of_short_chains(made, summary, warnings);
+  warn_of_disagreement(made, summary, warnings);
   if (!made.factor_known)
     say(summary,
         "the posterior takes one common factor of all noise for unknown, as the linearised intervals do: "

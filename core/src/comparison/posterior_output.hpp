@@ -8,10 +8,11 @@
 
 namespace tunica::comparison {
 
-/// Puts quantiles, bands and what a reader of them must know into the summary of a run: chains that disagree, limits
-/// elsewhere than those of the linearised interval by more than half of its half width, what is not known of the noise,
-/// an objective that is no likelihood, simulations that failed.
-void add_posterior(const assembly::Assembly& assembly, const posterior::Posterior& made, RunSummary& summary);
+/// Puts quantiles, bands and what a reader of them must know into the summary of a run: what is not known of the noise,
+/// an objective that is no likelihood, simulations that failed. Warns of chains that disagree, and of limits elsewhere
+/// than those of the linearised interval by more than half of its half width.
+void add_posterior(const assembly::Assembly& assembly, const posterior::Posterior& made, RunSummary& summary,
+                   std::vector<execution::Warning>& warnings);
 
 /// posterior_<run>.json: {"posterior": {parameter: chains × draws}, "sample_stats": {"lp": …, "acceptance_rate": …}},
 /// in base units, as arviz.from_json() reads it. Returns its name.

@@ -177,7 +177,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
       } else if (!made.complete) {
         if (work.is_over()) say_left_out("no posterior", *max_time, own);
       } else {
-        add_posterior(assembly, made, own);
+        add_posterior(assembly, made, own, summary.warnings);
         own.posterior->file = write_posterior(directory, assembly, made, own.label);
         has_posterior = true;
       }

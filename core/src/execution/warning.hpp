@@ -64,6 +64,8 @@ enum class WarningKind {
   record_noise,
   header_measure,
   header_strain,
+  posterior_not_converged,
+  posterior_disagrees,
   set_up,
 };
 
@@ -120,6 +122,8 @@ inline constexpr text::Codes<WarningKind, 53> warning_codes{
      {WarningKind::record_noise, "record_noise"},
      {WarningKind::header_measure, "header_measure"},
      {WarningKind::header_strain, "header_strain"},
+     {WarningKind::posterior_not_converged, "posterior_not_converged"},
+     {WarningKind::posterior_disagrees, "posterior_disagrees"},
      {WarningKind::set_up, "set_up"}}};
 
 static_assert(static_cast<std::size_t>(WarningKind::set_up) + 1 == warning_codes.size());

@@ -23,7 +23,7 @@ namespace tunica::posterior {
 /// Math. 71:2609 (2018).
 ///
 /// Moves `here`, or leaves it; returns the probability with which it was to move, 0 where there was nowhere to go.
-/// `size`: β, above 0, below 1. Three to twenty simulations in all.
+/// `size`: β, above 0, below 1. Five to ten simulations where H is nearly linear, tens in a strongly bent valley.
 double make_tangent_move(Target& target, Point& here, double size, CounterRandom& random);
 
 }  // namespace tunica::posterior
