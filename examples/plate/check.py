@@ -19,7 +19,7 @@ for name, value in TRUTH.items():
     assert abs(found["value"] / value - 1) < 0.01, f"{name}: {found}, the data were made with {value}"
 assert not best["misfit"]["contradicts_noise"], best["misfit"]
 assert runs["neo_hooke"]["misfit"]["contradicts_noise"], runs["neo_hooke"]["misfit"]
-card = subprocess.run([*tunica, "export", results, "--run", "yeoh/lm", "--target", "calculix"], check=True,
+card = subprocess.run([*tunica, "export", results, "--run", "yeoh/lm", "--to", "calculix"], check=True,
                       capture_output=True, text=True).stdout
 assert "*HYPERELASTIC" in card, card
 found = ", ".join(f"{name} {best['parameters'][name]['value']:.2f} kPa" for name in TRUTH)

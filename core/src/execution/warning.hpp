@@ -69,7 +69,7 @@ enum class WarningKind {
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 53> warning_codes{
+inline constexpr text::Codes<WarningKind, 55> warning_codes{
     {{WarningKind::misfit_out_of_scale, "misfit_out_of_scale"},
      {WarningKind::no_misfit, "no_misfit"},
      {WarningKind::noise_contradicted, "noise_contradicted"},

@@ -70,7 +70,8 @@ plane::Gauge ClampedStrip::gauge(const plane::Body& body, std::size_t axis, doub
 bool ClampedStrip::is_symmetric(const TestInput& input, bool compressible) const {
   if (angled_) return false;
   const std::size_t sides = 3, n = sides * places_.size();
-  plane::Membrane membrane(input.model, input.model_parameters, along_, compressible);
+  plane::Membrane membrane(input.model, input.model_parameters, along_,
+                           compressible ? plane::Faces::free : plane::Faces::incompressible);
   membrane.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double x = places_[i / sides], y = std::pow(x, -0.5 * static_cast<double>(i % sides));
@@ -110,7 +111,9 @@ Status ClampedStrip::clamped(const TestInput& input, const TestOutput& output, b
   const plane::Gauge* const driver = size_.gauge > 0 ? &marks : nullptr;
   std::optional<plane::Pulling> pulling;
   for (std::size_t i = 0; i < n; ++i) {
-    if (i == 0 || i == pulled_) pulling.emplace(*used, input.model, input.model_parameters, along_, compressible);
+    if (i == 0 || i == pulled_)
+      pulling.emplace(*used, input.model, input.model_parameters, along_,
+                      compressible ? plane::Faces::free : plane::Faces::incompressible);
     const double x = places_[i];
     const auto problem = pulling->move_to(driver == nullptr ? (x - 1) * size_.length : x, driver);
     if (problem) return Status::failed("clamped_ends: at stretch " + std::to_string(x) + ": " + *problem);
@@ -133,7 +136,8 @@ Status ClampedStrip::clamped(const TestInput& input, const TestOutput& output, b
 Status ClampedStrip::subtract_homogeneous(const TestInput& input, const TestOutput& output, bool compressible) const {
   const std::size_t n = places_.size(), size = channels * n, count = input.model_parameters.size();
   const bool with_parameters = !output.jacobian.empty();
-  plane::Membrane strip(input.model, input.model_parameters, along_, compressible);
+  plane::Membrane strip(input.model, input.model_parameters, along_,
+                        compressible ? plane::Faces::free : plane::Faces::incompressible);
   strip.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     strip.C[i] = places_[i] * places_[i];
