@@ -21,6 +21,9 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # A plugin is built for one API number: both packages go together.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "tunica (= ${PROJECT_VERSION}), libeigen3-dev, nlohmann-json3-dev, libceres-dev, g++, cmake (>= 3.25)")
+if(TARGET full_field)
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libgmsh4.8")  # opened where a measured field is meshed
+endif()
 if(TARGET tunica_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-tunica)

@@ -58,6 +58,24 @@ TEST_F(Tables, AreReadOneAfterTheOther) {
   EXPECT_EQ(read(experiment.input_json).input_json, experiment.input_json);
 }
 
+/// A force becomes a stress by the size of the specimen, in a table as elsewhere.
+TEST_F(Tables, TakeWhatAMachineWrites) {
+  static_cast<void>(folder.write("raw.csv", "stretch,F [mN]\n1,0\n1.1,8\n1.2,20\n"));
+  const auto experiment =
+      read(strip(R"([{"file": "raw.csv", "columns": {"stretch": "stretch", "force": "F"}, "specimen": {"area": 4},
+                 "stress_measure": "first_piola_kirchhoff", "noise": {"absolute": "1 kPa"}},
+                {"file": "circ2.csv", "columns": {"stretch": "stretch", "transverse_stretch": "stretch"}}])"));
+  const auto& observables = testing::fake_catalogue().tests().at("uniaxial").factory.observables;
+  const data::Dataset all = data::read_dataset(experiment.test("circumferential_strip").data, observables);
+  ASSERT_EQ(all.channels.size(), 2u);
+  EXPECT_EQ(all.channels[0].observable, "stress");
+  EXPECT_DOUBLE_EQ(all.channels[0].values[2], 5);
+  EXPECT_EQ(all.channels[0].noise->absolute, 1);
+  EXPECT_EQ(experiment.test("circumferential_strip").data.stress_measure, "first_piola_kirchhoff");
+  EXPECT_EQ(read(experiment.input_json).input_json, experiment.input_json)
+      << "a table without stress states no measure";
+}
+
 TEST_F(Tables, AreOneAFileWithItsNumber) {
   const auto experiment = read(strip(
       R"({"numbered_files": "frame_*.csv", "columns": {"stress": "stress"}, "where": {"q": ">= 0"}, "noise": {"relative": 0.02}})"));

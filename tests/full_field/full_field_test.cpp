@@ -177,7 +177,8 @@ Point bulging(const Point& at, double load) {
 }
 
 TEST(FullField, DerivativesAreThoseOfDifferences) {
-  const Measured measured = measure({0.5, 1}, bulging, {-3, 1}, {7, 7}, 9);
+  Measured measured = measure({0.5, 1}, bulging, {-3, 1}, {7, 7}, 9);
+  measured.channels = {"ux", "uy", "force_left", "force_right"};
   struct Case {
     std::unique_ptr<Model> model;
     std::vector<double> p;
@@ -195,7 +196,7 @@ TEST(FullField, DerivativesAreThoseOfDifferences) {
     setup.angle = one.angle;
     setup.boundary = R"({"left": "measured", "right": "measured"})";
     const auto test = make(setup, measured);
-    const std::size_t size = 6 * measured.step.size();
+    const std::size_t channels = measured.channels.size(), size = channels * measured.step.size();
     std::vector<double> jacobian(one.p.size() * size), values(size);
     ASSERT_TRUE(test->predict({*one.model, one.p, {}}, {values, jacobian, {}, {}}).ok());
     for (std::size_t j = 0; j < one.p.size(); ++j) {
@@ -205,11 +206,11 @@ TEST(FullField, DerivativesAreThoseOfDifferences) {
       ASSERT_TRUE(test->predict({*one.model, p, {}}, {ahead, {}, {}, {}}).ok());
       p[j] = one.p[j] - h;
       ASSERT_TRUE(test->predict({*one.model, p, {}}, {behind, {}, {}, {}}).ok());
-      for (std::size_t k = 0; k < 6; ++k) {
+      for (std::size_t k = 0; k < channels; ++k) {
         double scale = 1e-7, worst = 0;
-        for (std::size_t i = k * size / 6; i < (k + 1) * size / 6; ++i)
+        for (std::size_t i = k * size / channels; i < (k + 1) * size / channels; ++i)
           scale = std::max(scale, std::abs(jacobian[j * size + i]));
-        for (std::size_t i = k * size / 6; i < (k + 1) * size / 6; ++i)
+        for (std::size_t i = k * size / channels; i < (k + 1) * size / channels; ++i)
           worst = std::max(worst, std::abs((ahead[i] - behind[i]) / (2 * h) - jacobian[j * size + i]));
         EXPECT_LT(worst / scale, 1e-5) << one.state << one.angle << " channel " << k << " parameter " << j;
       }
@@ -282,7 +283,13 @@ TEST(FullField, RefusesWhatItCannotSimulate) {
     return refusal(setup, loaded);
   };
   EXPECT_THAT(forces(R"({"right": "measured", "top": {"x": "measured"}})"), HasSubstr("'force_right'"));
+  EXPECT_THAT(forces(R"({"left": "measured", "top": {"y": "measured"}})"), HasSubstr("bears none"));
   EXPECT_EQ(forces(R"({"right": {"x": "measured"}, "top": {"y": "measured"}})"), "none");
+  Measured gap = measured;
+  for (std::size_t i = 0; i < gap.x.size(); ++i)
+    if (gap.x[i] < 0 && gap.y[i] > 3) gap.ux[i] = nan;
+  EXPECT_THAT(refusal({}, gap), HasSubstr("no point lies near it"));
+  EXPECT_THAT(with([](Plate& s) { s.mesh = R"({"file": 3})"; }), HasSubstr("is no text"));
   Measured alone = measured;
   alone.channels = {"uy"};
   EXPECT_THAT(refusal({}, alone), HasSubstr("no column is mapped to 'ux'"));

@@ -76,8 +76,9 @@ struct MeasuredChannel {
   [[nodiscard]] std::size_t file_row(std::size_t row) const { return file_rows.empty() ? row : file_rows[row]; }
   /// Whether its rows are points of a measured field: "x" and "y" are prescribed.
   [[nodiscard]] bool is_field() const { return coordinate("x") != nullptr && coordinate("y") != nullptr; }
-  /// The values of a prescribed quantity that is not the first one; null where there is no such.
+  /// The values of a prescribed quantity; null where there is no such.
   [[nodiscard]] const std::vector<double>* coordinate(std::string_view name) const {
+    if (abscissa_name == name) return &abscissa;
     for (const auto& [title, values] : other_abscissae)
       if (title.starts_with(name) && title.substr(name.size()).starts_with(" [")) return &values;
     return nullptr;

@@ -100,13 +100,18 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
   for (const auto* channel : fits.front().channels)
     for (const Extra& extra : shown) text += fmt::format(",{}.{} [{}]", channel->observable, extra.name, channel->unit);
   text += '\n';
+  // A row of a field is a point or has forces: what was not measured there is nowhere.
+  const auto nothing = [](const auto& channel, std::size_t row) {
+    return channel.is_field() && std::isnan(channel.measured[row]);
+  };
   for (const auto& fit : fits) {
     const auto& lead = *fit.channels.front();
     for (std::size_t row = 0; row < lead.count; ++row) {
       text += text::csv_cell(fit.label) + ',' + fit_cell(lead.abscissa[row]);
       for (const auto& other : lead.other_abscissae) text += ',' + fit_cell(other.second[row]);
       for (const auto* channel : fit.channels)
-        text += ',' + fit_cell(channel->measured[row]) + ',' + fit_cell(fit.predictions[channel->offset + row]);
+        text += ',' + fit_cell(channel->measured[row]) + ',' +
+                (nothing(*channel, row) ? "" : fit_cell(fit.predictions[channel->offset + row]));
       const bool held_out = std::any_of(fit.channels.begin(), fit.channels.end(),
                                         [row](const auto* channel) { return channel->held_out(row); });
       text += held_out ? ",1" : ",0";
@@ -119,7 +124,7 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
       for (const auto* channel : fit.channels)
         for (const Extra& extra : shown) {
           const auto& values = fit.summary->*extra.values;
-          text += ',' + (values.empty() ? "" : fit_cell(values[channel->offset + row]));
+          text += ',' + (values.empty() || nothing(*channel, row) ? "" : fit_cell(values[channel->offset + row]));
         }
       text += '\n';
     }

@@ -2,6 +2,8 @@
 #include "comparison/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <tuple>
 
 #include <boost/random/mersenne_twister.hpp>
@@ -149,6 +151,9 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
       if (channel != assembly.layout().channels.end()) {
         const auto begin = predictions.begin() + static_cast<std::ptrdiff_t>(channel->offset);
         values.assign(begin, begin + static_cast<std::ptrdiff_t>(channel->count));
+        // Of several tables, a row of one has nothing of the channels of another.
+        for (std::size_t row = 0; !test.data.tables.empty() && row < values.size(); ++row)
+          if (std::isnan(channel->measured[row])) values[row] = std::numeric_limits<double>::quiet_NaN();
         add_noise(values, request.noise,
                   derive_seed(request.seed, fmt::format("simulate {} {}", test.name, observable)));
       } else if (const auto* measured = measured_column(dataset, observable)) {
@@ -176,7 +181,8 @@ std::filesystem::path write_table(const std::filesystem::path& directory, const 
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().size();
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t c = 0; c < table.columns.size(); ++c)
-      text += fmt::format("{}{}", c ? "," : "", table.columns[c][row]);
+      text += fmt::format("{}{}", c ? "," : "",
+                          std::isnan(table.columns[c][row]) ? "" : fmt::format("{}", table.columns[c][row]));
     text += '\n';
   }
   auto file = directory / (table.test + ".csv");

@@ -136,12 +136,18 @@ Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& 
   std::vector<Dataset> tables;
   for (const DataRequest& table : request.tables) tables.push_back(read_table(table, observables));
   Dataset dataset = stacked(tables);
+  const auto names = [](const auto& list, const std::string& name) {
+    return std::ranges::any_of(list, [&](const auto& one) { return one.first == name; });
+  };
   std::erase_if(dataset.channels, [&](const Channel& channel) {
-    return std::ranges::none_of(request.columns,
-                                [&](const auto& column) { return column.first == channel.observable; });
+    return std::ranges::none_of(request.columns, [&](const auto& column) {
+      return quantity_named(column.first, observables)->observable->name == channel.observable;
+    });
   });
   for (Channel& channel : dataset.channels) {
-    channel.noise.reset();
+    const bool was_stated = std::ranges::any_of(
+        request.tables, [&](const DataRequest& table) { return names(table.noise, channel.observable); });
+    if (was_stated && !names(request.noise, channel.observable)) channel.noise.reset();
     for (const auto& [name, noise] : request.noise)
       if (name == channel.observable) channel.noise = noise;
   }
@@ -167,8 +173,10 @@ static Dataset read_table(const DataRequest& request, const std::vector<Observab
   dataset.lines = first.lines;
   dataset.time = first.time;
   dataset.understood = understood(first, request, observables);
-  for (const auto& [name, value] : request.constants)
+  for (const auto& [name, value] : request.constants) {
     dataset.abscissae.emplace_back(name, std::vector<double>(dataset.count, value));
+    dataset.source_columns.push_back({name, {name, ""}});
+  }
   for (std::size_t k = 0; k < first.columns.size(); ++k) {
     const Series::Column& column = first.columns[k];
     const Observable& observable = *column.observable;

@@ -85,7 +85,10 @@ void sort_rows(Dataset& dataset) {
   if (dataset.abscissae.empty() || runs_to_and_fro(dataset.abscissae.front().second)) return;
   std::vector<std::pair<std::size_t, const std::vector<double>*>> keys;
   for (const auto& [name, values] : dataset.abscissae) {
-    const std::size_t different = std::set<double>(values.begin(), values.end()).size();
+    std::set<double> found;
+    for (const double value : values)
+      if (!std::isnan(value)) found.insert(value);
+    const std::size_t different = found.size();
     keys.emplace_back(4 * different <= dataset.count ? different : dataset.count, &values);
   }
   std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -30,6 +30,9 @@ Signal::Column column_of(const Csv& csv, std::size_t index) {
 
 std::vector<Signal> read_signals(const DataRequest& request, const std::vector<Observable>& observables) {
   std::vector<Signal> signals;
+  for (const DataRequest& table : request.tables)
+    for (Signal& signal : read_signals(table, observables)) signals.push_back(std::move(signal));
+  if (!request.tables.empty()) return signals;
   for (const std::filesystem::path& file : request.files) {
     std::vector<std::string> warnings;
     const Series series = read_series(file, request, observables, warnings);

@@ -56,7 +56,10 @@ Dataset stacked(const std::vector<Dataset>& tables) {
     all.ordered = all.ordered && table.ordered;
     add_new(all.elongations, table.elongations);
     add_new(all.warnings, table.warnings);
-    add_new(all.source_columns, table.source_columns);
+    for (const auto& source : table.source_columns)
+      if (std::ranges::find(all.source_columns, source.first, [](const auto& one) { return one.first; }) ==
+          all.source_columns.end())
+        all.source_columns.push_back(source);
     all.sha256.insert(all.sha256.end(), table.sha256.begin(), table.sha256.end());
     all.understood.insert(all.understood.end(), table.understood.begin(), table.understood.end());
   }

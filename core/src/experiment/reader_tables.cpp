@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "data/quantities.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
 
@@ -55,12 +56,18 @@ std::vector<data::DataRequest> read_numbered(const Node& block, const std::vecto
 data::DataRequest read_tables(const Node& list, const std::vector<Observable>& observables, std::string_view owner,
                               const std::filesystem::path& folder) {
   data::DataRequest all;
+  bool measure_known = false;
   const auto add = [&](const Node& block, data::DataRequest table) {
     if (table.files.size() > 1)
       block.child_or_self("files").fail("replicates are given in one of several tables",
                                         "Give each table one \"file\", or make each replicate a test of its own.");
     table.part = true;
-    if (all.tables.empty()) all.stress_measure = table.stress_measure;
+    const bool stress = std::ranges::any_of(table.columns, [&](const auto& column) {
+      return data::quantity_named(column.first, observables)->observable->kind == Observable::Kind::stress;
+    });
+    if (!stress) table.stress_measure = all.stress_measure;
+    if (stress && !measure_known) all.stress_measure = table.stress_measure;
+    measure_known = measure_known || stress;
     if (table.stress_measure != all.stress_measure)
       block.child_or_self("stress_measure")
           .fail(fmt::format("the tables of {} state two stress measures", owner), "Give the same one in all of them.");

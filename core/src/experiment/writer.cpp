@@ -176,14 +176,17 @@ class Writer {
   [[nodiscard]] Json data(const TestEntry& entry) const {
     Json json = entry.data.tables.empty() ? to_json(entry.data) : tables_to_json(entry.data);
     const auto& observables = catalogue_.tests().find(entry.type)->second.factory.observables;
-    const bool stress = std::any_of(entry.data.columns.begin(), entry.data.columns.end(), [&](const auto& column) {
-      const auto quantity = data::quantity_named(column.first, observables);
-      return quantity && quantity->observable->kind == Observable::Kind::stress;
-    });
-    if (entry.measured && !stress) {
-      if (json.is_object()) json.erase("stress_measure");
-      for (Json& table : json)
-        if (table.is_object() && json.is_array()) table.erase("stress_measure");
+    const auto has_stress = [&](const data::DataRequest& data) {
+      return std::any_of(data.columns.begin(), data.columns.end(), [&](const auto& column) {
+        const auto quantity = data::quantity_named(column.first, observables);
+        return quantity && quantity->observable->kind == Observable::Kind::stress;
+      });
+    };
+    if (json.is_object()) {
+      if (entry.measured && !has_stress(entry.data)) json.erase("stress_measure");
+    } else {
+      for (std::size_t k = 0; k < json.size(); ++k)
+        if (!has_stress(entry.data.tables[k])) json[k].erase("stress_measure");
     }
     return json;
   }

@@ -101,6 +101,7 @@ void add_steps(Page& page, const Field& field, const std::vector<std::string>& c
   std::vector<std::vector<Cell>> rows;
   for (const auto& [step, of] : field.steps())
     for (const std::string& channel : channels) {
+      if (!std::isfinite(field.rms(of, channel))) continue;  // not measured in this step
       const auto worst = std::ranges::max_element(of, {}, [&](std::size_t row) {
         const double r = field.rest(row, channel);
         return std::isfinite(r) ? std::abs(r) : -1;
@@ -161,7 +162,8 @@ bool add_field(Page& page, const Folder& folder, const Order& order, const Table
   add_steps(page, field, displacements);
   const auto worst = std::ranges::max_element(steps, {}, [&](const auto& step) {
     double sum = 0;
-    for (const std::string& channel : displacements) sum += field.rms(step.second, channel);
+    for (const std::string& channel : displacements)
+      if (const double rms = field.rms(step.second, channel); std::isfinite(rms)) sum += rms;
     return sum;
   });
   const auto last = std::prev(steps.end());

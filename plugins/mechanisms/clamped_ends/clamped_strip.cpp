@@ -111,9 +111,7 @@ Status ClampedStrip::clamped(const TestInput& input, const TestOutput& output, b
   const plane::Gauge* const driver = size_.gauge > 0 ? &marks : nullptr;
   std::optional<plane::Pulling> pulling;
   for (std::size_t i = 0; i < n; ++i) {
-    if (i == 0 || i == pulled_)
-      pulling.emplace(*used, input.model, input.model_parameters, along_,
-                      compressible ? plane::Faces::free : plane::Faces::incompressible);
+    if (i == 0 || i == pulled_) pulling.emplace(*used, input.model, input.model_parameters, along_, compressible);
     const double x = places_[i];
     const auto problem = pulling->move_to(driver == nullptr ? (x - 1) * size_.length : x, driver);
     if (problem) return Status::failed("clamped_ends: at stretch " + std::to_string(x) + ": " + *problem);

@@ -28,12 +28,12 @@ struct Frame {
 
 /// The prescribed displacements of one step, by dof; 0 where nothing is prescribed.
 ///
-/// On a measured side they follow from the points within 2.5 spacings of it, by least squares on
+/// On a measured side they follow from the points within four spacings of it, by least squares on
 ///
-///     u(s, d) = Σ_{k ≤ degree} a_k P_k(s) + d Σ_{k ≤ 2} b_k P_k(s) + c d²
+///     u(s, d) = Σ_{k ≤ degree} (a_k + b_k d) P_k(s) + d² Σ_{k ≤ 2} c_k P_k(s) + e d³
 ///
-/// with Legendre polynomials P_k of the place s along the side, −1 to 1, and the distance d from it: never beyond what
-/// was measured. Throws InputError where a side has too few points near.
+/// with Legendre polynomials P_k of the place s along the side, −1 to 1, and the distance d from it. Throws InputError
+/// where too few points are near, or none over more than four spacings of a measured side, its ends included.
 std::vector<double> prescribed(const Specimen& specimen, const Edges& edges, const Frame& frame, std::size_t degree);
 
 }  // namespace tunica::field

@@ -34,7 +34,7 @@ class FullField final : public Test {
     bind(setup);
     take_frames(setup);
     mesh_ = meshed(mesh_of(setup));
-    for (const Channel channel : channels_) refuse_shared_corner(static_cast<std::size_t>(channel));
+    for (const Channel channel : channels_) refuse_force(static_cast<std::size_t>(channel));
     description_.costly = true;
     description_.volume = plane_strain_ ? TestDescription::Volume::free : TestDescription::Volume::either;
   }
@@ -47,7 +47,7 @@ class FullField final : public Test {
       return Status::failed(
           "full_field: the model remembers its history, and steps are simulated at equilibrium; choose a model without "
           "history");
-    if (!input.abscissae.empty())
+    if (!input.abscissae.empty() || !output.abscissa_derivative.empty())
       return Status::failed("full_field: points are where they were measured; take mechanisms out that move them");
     return on_mesh(input, output, *mesh_);
   }
@@ -138,12 +138,18 @@ class FullField final : public Test {
     }
   }
 
-  /// A node where two sides meet that are both held bears what belongs to either: no one can part it.
-  void refuse_shared_corner(std::size_t channel) const {
+  /// A free side bears no force. A node where two sides meet that are both held bears what belongs to either: no one
+  /// can part it.
+  void refuse_force(std::size_t channel) const {
     if (channel < 2) return;
     const std::size_t side = channel - 2, axis = axis_of(side);
+    if (edges_[side][axis] == Edge::free)
+      throw InputError(
+          fmt::format("full_field: '{}' is mapped, and the {} side is free in {}, so that it bears none; say "
+                      "in \"boundary\" how it moves, or take the force out",
+                      channel_names[channel], side_names[side], axis == 0 ? "x" : "y"));
     for (std::size_t other = 2 * (1 - axis); other < 2 * (1 - axis) + 2; ++other) {
-      if (edges_[side][axis] == Edge::free || edges_[other][axis] == Edge::free) continue;
+      if (edges_[other][axis] == Edge::free) continue;
       for (const std::size_t node : mesh_->specimen.nodes_on(side))
         if (std::ranges::find(mesh_->specimen.nodes_on(other), node) != mesh_->specimen.nodes_on(other).end())
           throw InputError(fmt::format(
@@ -222,7 +228,6 @@ class FullField final : public Test {
     const std::size_t size = rows_.count * channels_.size();
     std::fill(output.values.begin(), output.values.end(), 0.0);
     std::fill(output.jacobian.begin(), output.jacobian.end(), 0.0);
-    std::fill(output.abscissa_derivative.begin(), output.abscissa_derivative.end(), 0.0);
     std::vector<double> du, df;
     for (std::size_t k = 0; k < steps_.size(); ++k) {
       const Step& step = steps_[k];

@@ -15,14 +15,22 @@
 namespace tunica::field {
 namespace {
 
+/// The library and, where it is not there, why.
+const std::pair<void*, std::string>& library() {
+  static const std::pair<void*, std::string> opened = [] {
+    void* const found = dlopen(TUNICA_GMSH_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    return std::pair(found, std::string(found == nullptr ? dlerror() : ""));
+  }();
+  return opened;
+}
+
 template <class Function>
 Function* symbol(const char* name) {
-  static void* const library = dlopen(TUNICA_GMSH_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr)
+  if (library().first == nullptr)
     throw InputError(
         fmt::format("full_field: the library of Gmsh, {}, cannot be opened ({}); install it (Debian: libgmsh4.8)",
-                    TUNICA_GMSH_LIBRARY, dlerror()));
-  auto* const found = reinterpret_cast<Function*>(dlsym(library, name));
+                    TUNICA_GMSH_LIBRARY, library().second));
+  auto* const found = reinterpret_cast<Function*>(dlsym(library().first, name));
   if (found == nullptr)
     throw InputError(fmt::format("full_field: {} has no function {}; install Gmsh 4.8", TUNICA_GMSH_LIBRARY, name));
   return found;

@@ -58,7 +58,9 @@ Outline outline_of(const TestSetup& setup) {
   outline.size = pair(setup, given["rectangle"], "shape");
   if (!(outline.size[0] > 0 && outline.size[1] > 0)) refuse("shape", "a side of the rectangle is not positive", help);
   if (given.contains("corner")) outline.corner = pair(setup, given["corner"], "shape");
-  for (const Json& hole : given.value("holes", Json::array())) {
+  const Json holes = given.value("holes", Json::array());
+  if (!holes.is_array()) refuse("shape", "\"holes\" is no list", help);
+  for (const Json& hole : holes) {
     if (!hole.is_object() || !hole.contains("centre") || !hole.contains("radius"))
       refuse("shape", "a hole has no \"centre\" or no \"radius\"", help);
     allow_only(hole, {"centre", "radius"}, "shape");
@@ -77,6 +79,9 @@ Mesh mesh_of(const TestSetup& setup) {
   constexpr const char* help = R"(give {"file": "plate.msh", "unit": "mm"}, or {"size": "0.7 mm"} beside a "shape")";
   if (!given.is_object()) refuse("mesh", "it is no object", help);
   allow_only(given, {"file", "unit", "size"}, "mesh");
+  for (const char* key : {"file", "unit"})
+    if (given.contains(key) && !given[key].is_string())
+      refuse("mesh", fmt::format("the {} {} is no text", key, given[key].dump()), help);
   if (given.contains("file") == given.contains("size")) refuse("mesh", "one of \"file\" and \"size\" is needed", help);
   if (given.contains("file")) {
     if (has_shape) refuse("shape", "it is given beside a mesh file", "leave one of the two out");

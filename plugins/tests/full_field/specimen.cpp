@@ -78,7 +78,16 @@ Specimen::Specimen(Mesh mesh, const std::array<std::array<bool, 2>, 4>& held) : 
 
 void Specimen::make_elements() {
   elements_.nodes = mesh_.triangles;
-  for (const auto& triangle : mesh_.triangles)
+  for (const auto& triangle : mesh_.triangles) {
+    std::array<double, 4> box{1e300, -1e300, 1e300, -1e300};
+    for (const std::size_t node : triangle)
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        box[2 * axis] = std::min(box[2 * axis], mesh_.nodes[node][axis]);
+        box[2 * axis + 1] = std::max(box[2 * axis + 1], mesh_.nodes[node][axis]);
+      }
+    // A curved edge leaves the box of its nodes by less than this margin.
+    const double margin = 2 * allowance * std::max(box[1] - box[0], box[3] - box[2]);
+    boxes_.push_back({box[0] - margin, box[1] + margin, box[2] - margin, box[3] + margin});
     for (const auto& [s, t] : gauss_places) {
       const Mapped at(mesh_, triangle, s, t);
       if (!(at.det() > 0))
@@ -92,24 +101,16 @@ void Specimen::make_elements() {
       point.weight = at.det() * sixth;
       elements_.gauss.push_back(point);
     }
+  }
 }
 
 std::optional<Place> Specimen::find(Vector point) const {
-  const double beyond = 1 + 2 * allowance;
   std::optional<Place> best;
   double best_outside = allowance;
-  for (const auto& triangle : mesh_.triangles) {
-    // Its box, a little larger, is a quick look; a curved edge leaves the corners' box by less than that.
-    std::array<double, 4> box{1e300, -1e300, 1e300, -1e300};
-    for (const std::size_t node : triangle)
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        box[2 * axis] = std::min(box[2 * axis], mesh_.nodes[node][axis]);
-        box[2 * axis + 1] = std::max(box[2 * axis + 1], mesh_.nodes[node][axis]);
-      }
-    const double margin = (beyond - 1) * std::max(box[1] - box[0], box[3] - box[2]);
-    if (point[0] < box[0] - margin || point[0] > box[1] + margin || point[1] < box[2] - margin ||
-        point[1] > box[3] + margin)
-      continue;
+  for (std::size_t e = 0; e < boxes_.size(); ++e) {
+    const auto& box = boxes_[e];
+    if (point[0] < box[0] || point[0] > box[1] || point[1] < box[2] || point[1] > box[3]) continue;
+    const auto& triangle = mesh_.triangles[e];
     double s = 1.0 / 3, t = 1.0 / 3;
     for (int iteration = 0; iteration < 20; ++iteration) {
       const Mapped at(mesh_, triangle, s, t);
@@ -122,11 +123,7 @@ std::optional<Place> Specimen::find(Vector point) const {
       const double outside = std::max({-s, -t, s + t - 1, 0.0});
       if (outside >= best_outside && outside > 0) break;
       const Mapped found(mesh_, triangle, s, t);
-      Place place{triangle, found.N, {}, {}};
-      for (std::size_t a = 0; a < 6; ++a) {
-        place.by_x[a] = found.by_x(a);
-        place.by_y[a] = found.by_y(a);
-      }
+      const Place place{triangle, found.N};
       if (outside <= 1e-9) return place;
       best = place;
       best_outside = outside;

@@ -21,10 +21,10 @@ constexpr std::array<const char*, 4> side_names{"left", "right", "bottom", "top"
 constexpr std::size_t axis_of(std::size_t side) { return side / 2; }
 constexpr double outwards(std::size_t side) { return side % 2 == 0 ? -1 : 1; }
 
-/// Where a point lies: the nodes of its triangle with their weights, and the weights' derivatives by x and y.
+/// Where a point lies: the nodes of its triangle with their weights.
 struct Place {
   std::array<std::size_t, 6> nodes{};
-  std::array<double, 6> weights{}, by_x{}, by_y{};
+  std::array<double, 6> weights{};
 };
 
 /// A meshed sheet of unit thickness with its boundary. The displacement of node a: u_x at 2a, u_y at 2a + 1, mm.
@@ -52,6 +52,7 @@ class Specimen {
   Mesh mesh_;
   plane::Elements<6, 3> elements_;
   Vector low_{}, high_{};
+  std::vector<std::array<double, 4>> boxes_;  ///< of each triangle with a margin: x from, to, y from, to
   std::array<std::vector<std::size_t>, 4> sides_;
   std::vector<std::size_t> free_, unknown_;
   Eigen::SparseMatrix<double> pattern_;

@@ -56,6 +56,13 @@ Weightless without_weights(experiment::Experiment experiment, const std::vector<
     const auto& observables = catalogue.tests().find(test.type)->second.factory.observables;
     const auto channels = data::read_dataset(test.data, observables).channels;
     std::vector<std::string> silent;
+    if (!test.data.tables.empty()) {  // a measured field moves its edges, whatever it weighs
+      warnings.push_back({WarningKind::channel_without_weight,
+                          fmt::format("test '{}': a channel has weight 0 and takes part in the diagnosis all the same, "
+                                      "since the data are in several tables. Take its column out to leave it out",
+                                      test.name)});
+      continue;
+    }
     for (std::size_t k = 0; k < weights.size(); ++k)
       if (weights[k] == 0) silent.push_back(channels[k].observable);
     warnings.push_back({WarningKind::channel_without_weight,

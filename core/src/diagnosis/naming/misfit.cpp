@@ -41,14 +41,16 @@ Misfit described_field(const Evidence& evidence, const Curve& curve, const assem
   Eigen::Index worst = 0;
   r.cwiseAbs().maxCoeff(&worst);
   const std::size_t row = curve.rows[static_cast<std::size_t>(worst)];
-  const double step = view.abscissa[row];
+  const auto* const steps = view.coordinate("step");
+  const double step = steps == nullptr ? view.abscissa[row] : (*steps)[row];
   Misfit misfit{curve.test, curve.channel, {}, p, step, step};
   misfit.where = fmt::format(
       "{:.1f} σ on average over {} points, most at {} {:.4g}, x {:.4g} mm, y {:.4g} mm: measured lies {} the "
       "prediction "
       "by {:.1f} σ",
-      std::sqrt(r.squaredNorm() / static_cast<double>(r.size())), curve.count, view.abscissa_name, step,
-      (*view.coordinate("x"))[row], (*view.coordinate("y"))[row], r[worst] < 0 ? "above" : "below", std::abs(r[worst]));
+      std::sqrt(r.squaredNorm() / static_cast<double>(r.size())), curve.count,
+      steps == nullptr ? view.abscissa_name : "step", step, (*view.coordinate("x"))[row], (*view.coordinate("y"))[row],
+      r[worst] < 0 ? "above" : "below", std::abs(r[worst]));
   return misfit;
 }
 
