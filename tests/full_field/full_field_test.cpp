@@ -195,13 +195,22 @@ TEST(FullField, DerivativesAreThoseOfDifferences) {
     setup.state = one.state;
     setup.angle = one.angle;
     setup.boundary = R"({"left": "measured", "right": "measured"})";
-    const auto test = make(setup, measured);
     const std::size_t channels = measured.channels.size(), size = channels * measured.step.size();
+    // The edges follow the parameters, up to terms of the size of what is left. So the field is that of the parameters.
+    Measured own = measured;
+    std::vector<double> field(size);
+    ASSERT_TRUE(make(setup, measured)->predict({*one.model, one.p, {}}, {field, {}, {}, {}}).ok());
+    for (std::size_t i = 0; i < own.step.size(); ++i) {
+      if (!std::isfinite(own.x[i])) continue;
+      own.ux[i] = field[i];
+      own.uy[i] = field[own.step.size() + i];
+    }
+    const auto test = make(setup, own);
     std::vector<double> jacobian(one.p.size() * size), values(size);
     ASSERT_TRUE(test->predict({*one.model, one.p, {}}, {values, jacobian, {}, {}}).ok());
     for (std::size_t j = 0; j < one.p.size(); ++j) {
       std::vector<double> ahead(size), behind(size), p = one.p;
-      const double h = 1e-4 * (0.1 + std::abs(one.p[j]));
+      const double h = 1e-5 * (0.1 + std::abs(one.p[j]));
       p[j] = one.p[j] + h;
       ASSERT_TRUE(test->predict({*one.model, p, {}}, {ahead, {}, {}, {}}).ok());
       p[j] = one.p[j] - h;
@@ -212,7 +221,7 @@ TEST(FullField, DerivativesAreThoseOfDifferences) {
           scale = std::max(scale, std::abs(jacobian[j * size + i]));
         for (std::size_t i = k * size / channels; i < (k + 1) * size / channels; ++i)
           worst = std::max(worst, std::abs((ahead[i] - behind[i]) / (2 * h) - jacobian[j * size + i]));
-        EXPECT_LT(worst / scale, 1e-5) << one.state << one.angle << " channel " << k << " parameter " << j;
+        EXPECT_LT(worst / scale, 1e-4) << one.state << one.angle << " channel " << k << " parameter " << j;
       }
     }
   }
@@ -252,7 +261,7 @@ std::string refusal(const Plate& setup, const Measured& measured) {
 }
 
 TEST(FullField, RefusesWhatItCannotSimulate) {
-  Measured measured = measure({1}, affine, {-3, 1}, {7, 7}, 9);
+  Measured measured = measure({1}, affine, {-3, 1}, {7, 7});
   measured.channels = {"ux", "uy"};
   const auto with = [&](auto change) {
     Plate setup;
@@ -287,7 +296,7 @@ TEST(FullField, RefusesWhatItCannotSimulate) {
   EXPECT_EQ(forces(R"({"right": {"x": "measured"}, "top": {"y": "measured"}})"), "none");
   Measured gap = measured;
   for (std::size_t i = 0; i < gap.x.size(); ++i)
-    if (gap.x[i] < 0 && gap.y[i] > 3) gap.ux[i] = nan;
+    if (gap.x[i] < 0 && gap.y[i] > 4) gap.ux[i] = nan;
   EXPECT_THAT(refusal({}, gap), HasSubstr("no point lies near it"));
   EXPECT_THAT(with([](Plate& s) { s.mesh = R"({"file": 3})"; }), HasSubstr("is no text"));
   Measured alone = measured;

@@ -79,9 +79,37 @@ std::vector<std::size_t> points_of(const Strip& strip, const Frame& frame, std::
   return used;
 }
 
+/// Whether a node of a side moves with it in a component: no fixed side has it too, and no later moved one if `alone`.
+bool moves(const Specimen& specimen, const Edges& edges, std::size_t side, std::size_t c, std::size_t node,
+           bool alone) {
+  for (std::size_t other = 0; other < 4; ++other) {
+    const bool stops = edges[other][c] == Edge::fixed || (alone && other > side && edges[other][c] != Edge::free);
+    if (other != side && stops && std::ranges::find(specimen.nodes_on(other), node) != specimen.nodes_on(other).end())
+      return false;
+  }
+  return true;
+}
+
 }  // namespace
 
-std::vector<double> prescribed(const Specimen& specimen, const Edges& edges, const Frame& frame, std::size_t degree) {
+std::vector<Mode> modes(const Specimen& specimen, const Edges& edges, std::size_t degree) {
+  std::vector<Mode> found;
+  for (std::size_t side = 0; side < 4; ++side)
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (edges[side][c] != Edge::uniform && edges[side][c] != Edge::measured) continue;
+      const Strip strip(specimen, side, 1);
+      const std::size_t order = edges[side][c] == Edge::uniform ? 0 : degree, first = found.size();
+      found.resize(first + order + 1);
+      for (const std::size_t a : specimen.nodes_on(side)) {
+        if (!moves(specimen, edges, side, c, a, true)) continue;
+        const std::vector<double> P = legendre(order, strip.place(specimen.mesh().nodes[a])[0]);
+        for (std::size_t k = 0; k <= order; ++k) found[first + k].emplace_back(2 * a + c, P[k]);
+      }
+    }
+  return found;
+}
+
+std::vector<double> beginning(const Specimen& specimen, const Edges& edges, const Frame& frame, std::size_t degree) {
   std::vector<double> u(specimen.dofs(), 0.0);
   double area = 0;
   for (const auto& point : specimen.elements().gauss) area += point.weight;
@@ -109,15 +137,9 @@ std::vector<double> prescribed(const Specimen& specimen, const Edges& edges, con
         b[r] = frame.displacements[c][k];
       }
       const Eigen::VectorXd fit = A.colPivHouseholderQr().solve(b);
-      const auto is_fixed = [&](std::size_t a) {
-        for (std::size_t other = 2 * strip.along; other < 2 * strip.along + 2; ++other)
-          if (edges[other][c] == Edge::fixed &&
-              std::ranges::find(specimen.nodes_on(other), a) != specimen.nodes_on(other).end())
-            return true;
-        return false;
-      };
       for (const std::size_t a : specimen.nodes_on(side))
-        if (!is_fixed(a)) u[2 * a + c] = functions(order, strip.place(all[a])[0], 0).dot(fit);
+        if (moves(specimen, edges, side, c, a, false))
+          u[2 * a + c] = functions(order, strip.place(all[a])[0], 0).dot(fit);
     }
   return u;
 }

@@ -43,7 +43,6 @@ Eigen::VectorXd Equilibrium::solve(const std::vector<double>& of_dofs) const {
 /// K du = −f − ∂f/∂u_held direction. The first step moves the held displacements, the others leave them. Where steps
 /// are small, one factor serves several, as long as each is a tenth of the one before.
 bool Equilibrium::newton(std::vector<double> direction) {
-  const auto& free = specimen_.free();
   bool reuse = false;
   double before = 1e300, size = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -54,7 +53,7 @@ bool Equilibrium::newton(std::vector<double> direction) {
     const Eigen::VectorXd du = -solve(right);
     const double largest = du.size() > 0 ? du.lpNorm<Eigen::Infinity>() : 0;
     if (!std::isfinite(largest)) return false;
-    for (std::size_t k = 0; k < free.size(); ++k) u_[free[k]] += du[static_cast<Eigen::Index>(k)];
+    add_free(du, u_);
     if (iteration == 0) {
       for (std::size_t dof = 0; dof < u_.size(); ++dof) u_[dof] += direction[dof];
       std::fill(direction.begin(), direction.end(), 0.0);
@@ -92,21 +91,34 @@ std::optional<std::string> Equilibrium::move_to(const std::vector<double>& presc
          "the bounds of the model's parameters";
 }
 
-bool Equilibrium::linearise() {
+bool Equilibrium::linearise(bool by_parameters) {
   const std::vector<double> normal = membrane_.normal;
-  const bool evaluated = evaluate(true, true);
+  const bool evaluated = evaluate(true, by_parameters);
   membrane_.normal = normal;
   return evaluated && factor(std::vector<double>(u_.size(), 0.0));
 }
 
-void Equilibrium::by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) {
+void Equilibrium::add_free(const Eigen::VectorXd& change, std::vector<double>& u) const {
+  const auto& free = specimen_.free();
+  for (std::size_t k = 0; k < free.size(); ++k) u[free[k]] += change[static_cast<Eigen::Index>(k)];
+}
+
+void Equilibrium::by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) const {
   const std::size_t n = 3 * specimen_.elements().points();
   df.assign(u_.size(), 0);
   specimen_.elements().add_forces(F_, std::span(membrane_.stress_dp).subspan(j * n, n), df);
-  const Eigen::VectorXd change = -solve(df);
   du.assign(u_.size(), 0);
-  const auto& free = specimen_.free();
-  for (std::size_t k = 0; k < free.size(); ++k) du[free[k]] = change[static_cast<Eigen::Index>(k)];
+  add_free(-solve(df), du);
+  specimen_.elements().add_force_change(F_, membrane_, du, df);
+}
+
+void Equilibrium::by_edge(const Mode& mode, std::vector<double>& du, std::vector<double>& df) const {
+  du.assign(u_.size(), 0);
+  for (const auto& [dof, value] : mode) du[dof] = value;
+  df.assign(u_.size(), 0);
+  specimen_.elements().add_force_change(F_, membrane_, du, df);
+  add_free(-solve(df), du);
+  df.assign(u_.size(), 0);
   specimen_.elements().add_force_change(F_, membrane_, du, df);
 }
 

@@ -23,15 +23,17 @@ class Equilibrium {
   /// Moves to the next step: `prescribed` by dof, read where held. The way is halved where Newton's method fails. Empty
   /// where it arrived, else what went wrong.
   std::optional<std::string> move_to(const std::vector<double>& prescribed);
-  /// Prepares derivatives by the model's parameters at the solution. False where the stiffness has no factor.
-  bool linearise();
+  /// Prepares derivatives at the solution, also by the model's parameters. False where the stiffness has no factor.
+  bool linearise(bool by_parameters);
 
   [[nodiscard]] const std::vector<double>& displacements() const { return u_; }
   [[nodiscard]] const std::vector<double>& forces() const { return f_; }  ///< by dof, per thickness, kPa·mm
   [[nodiscard]] const plane::Membrane& membrane() const { return membrane_; }
   [[nodiscard]] const std::vector<plane::Gradient>& gradients() const { return F_; }
   /// After linearise(): derivatives of displacements and forces by parameter j, by dof.
-  void by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df);
+  void by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) const;
+  /// The same by an edge that moves in this way.
+  void by_edge(const Mode& mode, std::vector<double>& du, std::vector<double>& df) const;
 
  private:
   using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
@@ -41,6 +43,7 @@ class Equilibrium {
   bool factor(const std::vector<double>& direction);
   bool newton(std::vector<double> direction);
   [[nodiscard]] Eigen::VectorXd solve(const std::vector<double>& of_dofs) const;
+  void add_free(const Eigen::VectorXd& change, std::vector<double>& u) const;
 
   const Specimen& specimen_;
   plane::Membrane membrane_;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "edge_fit.hpp"
 #include "equilibrium.hpp"
 #include "settings.hpp"
 #include "tunica/detail/compressible_prediction.hpp"
@@ -88,7 +89,8 @@ class FullField final : public Test {
   /// A mesh, and what the measured field is on it.
   struct Meshed {
     Specimen specimen;
-    std::vector<std::vector<double>> prescribed;  ///< a step, by dof
+    std::vector<std::vector<double>> prescribed;  ///< a step, by dof: where the edges begin
+    std::vector<Mode> modes;                      ///< in which they may move
     std::vector<Place> places;                    ///< of points_
   };
   enum class Channel { ux, uy, left, right, bottom, top };
@@ -190,7 +192,7 @@ class FullField final : public Test {
   }
 
   [[nodiscard]] std::shared_ptr<const Meshed> meshed(Mesh mesh) const {
-    auto made = std::make_shared<Meshed>(Meshed{Specimen(std::move(mesh), held(edges_)), {}, {}});
+    auto made = std::make_shared<Meshed>(Meshed{Specimen(std::move(mesh), held(edges_)), {}, {}, {}});
     std::size_t outside = 0;
     Vector first{};
     for (const Vector& point : points_) {
@@ -208,7 +210,8 @@ class FullField final : public Test {
           outside, points_.size(), first[0], first[1], corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)));
     }
     for (const Step& step : steps_)
-      made->prescribed.push_back(prescribed(made->specimen, edges_, step.frame, smoothing_));
+      made->prescribed.push_back(beginning(made->specimen, edges_, step.frame, std::min(smoothing_, most_to_begin)));
+    made->modes = modes(made->specimen, edges_, smoothing_);
     return made;
   }
 
@@ -231,20 +234,67 @@ class FullField final : public Test {
     std::vector<double> du, df;
     for (std::size_t k = 0; k < steps_.size(); ++k) {
       const Step& step = steps_[k];
-      if (auto problem = body.move_to(on.prescribed[k]))
+      EdgeFit edges(on.modes, [&](const std::vector<double>& u) { return at_points(on, step, u); });
+      if (auto problem = settle(body, edges, on, k))
         return Status::failed(fmt::format("full_field: step {:g}: {}", step.value, *problem));
       if (!output.values.empty()) read(on, step, body.displacements(), body.forces(), output.values);
       if (!wants_parameters) continue;
-      if (!body.linearise())
-        return Status::failed(
-            fmt::format("full_field: step {:g}: the stiffness is singular; narrow the bounds of the model's parameters",
-                        step.value));
+      if (!body.linearise(true)) return Status::failed(fmt::format("full_field: step {:g}: {}", step.value, singular));
+      edges.linearise(body);
       for (std::size_t j = 0; j < input.model_parameters.size(); ++j) {
         body.by_parameter(j, du, df);
+        edges.follow(du, df);
         read(on, step, du, df, output.jacobian.subspan(j * size, size));
       }
     }
     return {};
+  }
+
+  static constexpr std::size_t most_to_begin = 3;  ///< degree of the edges before they are fitted
+  static constexpr const char* singular = "the stiffness is singular; narrow the bounds of the model's parameters";
+
+  /// Moves to a step and fits its edges to the points: a chord method, whose steps shrink by the bend of the response.
+  std::optional<std::string> settle(Equilibrium& body, EdgeFit& edges, const Meshed& on, std::size_t k) const {
+    constexpr int rounds = 4, chords = 6;
+    const double small = 1e-9 * std::max(on.specimen.extent(0), on.specimen.extent(1));
+    const Eigen::VectorXd measured = measured_at_points(steps_[k]);
+    std::vector<double> prescribed = on.prescribed[k];
+    if (auto problem = body.move_to(prescribed)) return problem;
+    for (int round = 0; round < rounds; ++round) {
+      if (!body.linearise(false)) return singular;
+      edges.linearise(body);
+      for (int chord = 0; chord < chords; ++chord) {
+        const Eigen::VectorXd change = edges.solve(measured - at_points(on, steps_[k], body.displacements()));
+        if (!change.allFinite()) return "the edges do not follow from the points; give a smaller \"smoothing\"";
+        edges.add(change, prescribed);
+        if (auto problem = body.move_to(prescribed)) return problem;
+        if (change.lpNorm<Eigen::Infinity>() < small) return {};
+      }
+    }
+    return "the edges that fit the points best were not found; narrow the bounds of the model's parameters";
+  }
+
+  /// Displacements where they were measured, x before y.
+  [[nodiscard]] Eigen::VectorXd at_points(const Meshed& on, const Step& step, const std::vector<double>& u) const {
+    std::vector<double> values;
+    for (std::size_t c = 0; c < 2; ++c) {
+      std::size_t at = 0;
+      for (const std::size_t i : step.rows) {
+        if (!which_[i].is_point || !std::isfinite(step.frame.displacements[c][at++])) continue;
+        const Place& place = on.places[which_[i].point];
+        double& value = values.emplace_back(0);
+        for (std::size_t a = 0; a < 6; ++a) value += place.weights[a] * u[2 * place.nodes[a] + c];
+      }
+    }
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  }
+
+  [[nodiscard]] static Eigen::VectorXd measured_at_points(const Step& step) {
+    std::vector<double> values;
+    for (const auto& component : step.frame.displacements)
+      for (const double value : component)
+        if (std::isfinite(value)) values.push_back(value);
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   }
 
   /// What the channels read off displacements and nodal forces, in the rows of a step.
@@ -304,7 +354,7 @@ TestFactory factory() {
                       "Whether the faces are free or held through the thickness."),
        Option::quantity("material_angle", "deg", -360,
                         "From x counter-clockwise to the circumferential axis of the material.", 0.0),
-       Option::integer("smoothing", 4, {0, 20}, "Degree of the polynomial along a measured side.")},
+       Option::integer("smoothing", 6, {0, 20}, "Degree of the polynomial along a measured side.")},
       {{"step", "1", Role::abscissa, true, "Number of the frame, or any number that grows."},
        {"x", "mm", Role::abscissa, false, "Place of the point before loading."},
        {"y", "mm", Role::abscissa, false, "Place of the point before loading."},

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -26,6 +27,9 @@ struct Place {
   std::array<std::size_t, 6> nodes{};
   std::array<double, 6> weights{};
 };
+
+/// A way in which an edge moves: dofs with their displacements.
+using Mode = std::vector<std::pair<std::size_t, double>>;
 
 /// A meshed sheet of unit thickness with its boundary. The displacement of node a: u_x at 2a, u_y at 2a + 1, mm.
 /// Immutable, shared by all threads.

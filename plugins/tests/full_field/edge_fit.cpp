@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "edge_fit.hpp"
+
+namespace tunica::field {
+
+void EdgeFit::linearise(Equilibrium& body) {
+  du_.resize(modes_.size());
+  df_.resize(modes_.size());
+  Eigen::MatrixXd G;
+  for (std::size_t k = 0; k < modes_.size(); ++k) {
+    body.by_edge(modes_[k], du_[k], df_[k]);
+    const Eigen::VectorXd read = reading_(du_[k]);
+    if (k == 0) G.resize(read.size(), static_cast<Eigen::Index>(modes_.size()));
+    G.col(static_cast<Eigen::Index>(k)) = read;
+  }
+  G_.compute(G);
+}
+
+void EdgeFit::add(const Eigen::VectorXd& coefficients, std::vector<double>& prescribed) const {
+  for (std::size_t k = 0; k < modes_.size(); ++k)
+    for (const auto& [dof, value] : modes_[k]) prescribed[dof] += coefficients[static_cast<Eigen::Index>(k)] * value;
+}
+
+void EdgeFit::follow(std::vector<double>& du, std::vector<double>& df) const {
+  const Eigen::VectorXd change = solve(-reading_(du));
+  for (std::size_t k = 0; k < modes_.size(); ++k) {
+    const double by = change[static_cast<Eigen::Index>(k)];
+    for (std::size_t dof = 0; dof < du.size(); ++dof) {
+      du[dof] += by * du_[k][dof];
+      df[dof] += by * df_[k][dof];
+    }
+  }
+}
+
+}  // namespace tunica::field
