@@ -115,21 +115,21 @@ FileStanding = Literal["not_looked_for", "far", "near", "ahead"]
 HoldOutVerdict = Literal["predicted", "worse_than_fitted"]
 
 #: What a term of the energy is a function of.
-Invariant = Literal["I1", "I2", "stretches", "fibre"]
+Invariant = Literal["I1", "I2", "stretches", "fibre", "I1*I2", "I1^2*I2", "I1*I2^2", "I1bar", "I2bar", "J"]
 
 #: How far a job is.
 JobPhase = Literal["waiting", "running", "ended", "failed"]
 
 #: How a term grows: ψ(x), where x is 0 at rest. docs/composed.md has the formulas.
 Law = Literal["linear", "quadratic", "cubic", "power", "exponential", "exponential_square", "gent", "inverse_langevin",
-    "logarithm", "spline"]
+    "logarithm", "spline", "logarithmic", "simo", "ogden"]
 
 #: Which likelihood `aicc` and `bic` use.
 Likelihood = Literal["stated", "estimated", "mixed"]
 
 #: Why a mechanism is not looked for, or would not be seen.
 MechanismAbsence = Literal["none", "no_trace", "absorbed", "no_clock", "already_there", "no_place", "not_applicable",
-    "isotropic", "no_volume", "no_past"]
+    "isotropic", "no_volume", "no_size", "no_past"]
 
 #: What the noise of a channel rests on.
 NoiseOrigin = Literal["stated", "replicates", "smooth_shapes", "assumed"]
@@ -179,14 +179,15 @@ VectorLevel = Literal["baseline", "avx2", "avx512", "several"]
 
 #: What a warning is about.
 WarningKind = Literal["misfit_out_of_scale", "no_misfit", "noise_contradicted", "search_fell_short", "noise_too_large",
-    "small_misfit", "no_result", "no_feasible_point", "not_repeatable", "not_evaluated_again", "not_linearised",
-    "predicts_worse", "unstable", "ellipticity_lost", "drucker_lost", "inadmissible_parameters", "at_bound",
-    "stopped_at_default_bound", "bound_in_comparison", "not_fixed_by_data", "failed_evaluations", "optimizer_failure",
-    "same_course", "given_up", "depends_on_time", "prior", "held_out", "not_comparable", "other_model_preferred",
-    "certificate_failed", "objective_differs", "not_an_optimum", "differenced_derivatives", "equal_realisations",
-    "plugin_refused", "order_assumed", "record_broken", "record_softening", "record_jump", "record_repeated",
-    "record_coarse", "record_sign", "record_time", "record_short", "record_percent", "record_size", "record_angle",
-    "record_noise", "header_measure", "header_strain", "posterior_not_converged", "posterior_disagrees", "set_up"]
+    "mesh_biases_parameters", "small_misfit", "no_result", "no_feasible_point", "not_repeatable", "not_evaluated_again",
+    "not_linearised", "predicts_worse", "unstable", "ellipticity_lost", "drucker_lost", "free_faces_unstable",
+    "inadmissible_parameters", "at_bound", "stopped_at_default_bound", "bound_in_comparison", "not_fixed_by_data",
+    "failed_evaluations", "optimizer_failure", "same_course", "given_up", "depends_on_time", "prior", "held_out",
+    "not_comparable", "other_model_preferred", "certificate_failed", "objective_differs", "not_an_optimum",
+    "differenced_derivatives", "equal_realisations", "plugin_refused", "order_assumed", "record_broken",
+    "record_softening", "record_jump", "record_repeated", "record_coarse", "record_sign", "record_time", "record_short",
+    "record_percent", "record_size", "record_angle", "record_noise", "header_measure", "header_strain",
+    "posterior_not_converged", "posterior_disagrees", "set_up"]
 
 
 class Result(TypedDict):
@@ -388,6 +389,9 @@ class Estimate(TypedDict):
     #: Where the profile likelihood crosses its threshold; null on a side where it stays below as far as the bound. Only
     #: with --profiles. Unit: `unit`.
     profile_ci95: NotRequired[list[float | None]]
+    #: Value less what finite elements on a finer mesh would give, estimated in one linearised step. Only where a test
+    #: compares itself with a finer mesh, and the data fix the parameter. Unit: `unit`.
+    mesh_bias: NotRequired[float]
     #: Percentile interval of the residual bootstrap. Only with --bootstrap. Unit: `unit`.
     bootstrap_ci95: NotRequired[list[float] | None]
     #: 2.5 and 97.5 % of the draws from the posterior. Only with --posterior. Unit: `unit`.
@@ -447,12 +451,14 @@ class Stability(TypedDict):
     imposed: str | None
     #: Objective over that of the best unconstrained run of the same model; null where there is none.
     ratio_to_free: float | None
-    #: Of strips along each axis.
+    #: Of strips along each axis; empty where the model changes its volume.
     transverse: NotRequired[list[StripStability]]
     #: Whether the material stays elliptic.
     ellipticity: NotRequired[Condition]
     #: Drucker's condition, of isotropic models; null for others.
     drucker: NotRequired[Condition | None]
+    #: Whether the energy has a minimum over the stretches of free faces; null where the model keeps its volume.
+    free_faces: NotRequired[Condition | None]
     #: Inequalities of the model that do not hold, with their value.
     inadmissible: NotRequired[list[str]]
     #: All of it in words.
@@ -491,20 +497,23 @@ class Condition(TypedDict):
     first_lost: float | None
     #: The path on which it is lost, or weakest.
     path: str
-    #: That every path was followed to; null where one could not be followed at all.
+    #: That every path of extension was followed to; null where one could not be followed at all.
     checked_to: float | None
-    #: How far each path was followed: until the condition is lost or the response ends; null: not at all.
+    #: How far each path was followed: until the condition is lost or the response ends; below 1 where it is pressed;
+    #: null: not at all.
     paths: dict[str, float | None]
 
 
 class StabilityOfModel(TypedDict):
     """Whether a parameter set behaves as a material."""
-    #: Of strips along each axis.
+    #: Of strips along each axis; empty where the model changes its volume.
     transverse: list[StripStability]
     #: Whether the material stays elliptic.
     ellipticity: Condition
     #: Drucker's condition, of isotropic models; null for others.
     drucker: Condition | None
+    #: Whether the energy has a minimum over the stretches of free faces; null where the model keeps its volume.
+    free_faces: Condition | None
     #: Inequalities of the model that do not hold, with their value.
     inadmissible: list[str]
     #: All of it in words.
@@ -2387,12 +2396,14 @@ class StabilityAnswer(TypedDict):
 
 class JudgedMaterial(TypedDict):
     """Of one model the keys of stability_of_model, of several `models`."""
-    #: Of strips along each axis.
+    #: Of strips along each axis; empty where the model changes its volume.
     transverse: NotRequired[list[StripStability]]
     #: Whether the material stays elliptic.
     ellipticity: NotRequired[Condition]
     #: Drucker's condition, of isotropic models; null for others.
     drucker: NotRequired[Condition | None]
+    #: Whether the energy has a minimum over the stretches of free faces; null where the model keeps its volume.
+    free_faces: NotRequired[Condition | None]
     #: Inequalities of the model that do not hold, with their value.
     inadmissible: NotRequired[list[str]]
     #: All of it in words.

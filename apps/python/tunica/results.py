@@ -190,10 +190,8 @@ class Run:
     def posterior(self):
         """{name: array} of draws from the posterior, chains × draws, in base units; None where none were asked for.
         `best["posterior"]` says whether the chains agree. arviz.from_json(run.posterior_file) reads the same."""
-        if self.posterior_file is None:
-            return None
-        draws = _saved(self.posterior_file)["posterior"]
-        return Named("parameter", {name: numpy.array(chains, dtype=float) for name, chains in draws.items()})
+        draws = self.posterior_file and _saved(self.posterior_file)["posterior"]
+        return draws and Named("parameter", {name: numpy.array(chains, dtype=float) for name, chains in draws.items()})
 
     @property
     def posterior_file(self):

@@ -65,17 +65,19 @@ std::vector<std::size_t> points_of(const Strip& strip, const Frame& frame, std::
     along.push_back(frame.points[k][strip.along]);
   }
   if (static_cast<Eigen::Index>(used.size()) < 2 * unknowns)
-    throw InputError(fmt::format(
-        "full_field: {}, and {} points lie within {:.3g} mm of it where {} are needed; end the mesh where points were "
-        "measured{}",
-        side, used.size(), strip.near, 2 * unknowns, uniform ? "" : ", or give a smaller \"smoothing\""));
+    throw InputError(
+        fmt::format("full_field: {}, and {} points lie within {:.3g} mm of it where {} are needed; give a mesh that "
+                    "ends where points "
+                    "were measured{}",
+                    side, used.size(), strip.near, 2 * unknowns, uniform ? "" : ", or give a smaller \"smoothing\""));
   std::sort(along.begin(), along.end());
   for (std::size_t k = 1; k < along.size() && !uniform; ++k)
     if (along[k] - along[k - 1] > widest_gap * strip.near / band)
-      throw InputError(fmt::format(
-          "full_field: {}, and no point lies near it from {:.4g} to {:.4g} mm along it; end the mesh where points were "
-          "measured, or say \"uniform\" where a grip moves that side",
-          side, along[k - 1], along[k]));
+      throw InputError(
+          fmt::format("full_field: {}, and no point lies near it from {:.4g} to {:.4g} mm along it; give a mesh that "
+                      "ends where points "
+                      "were measured, or say \"uniform\" where a grip moves that side",
+                      side, along[k - 1], along[k]));
   return used;
 }
 

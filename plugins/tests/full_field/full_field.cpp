@@ -235,11 +235,10 @@ class FullField final : public Test {
     for (std::size_t k = 0; k < steps_.size(); ++k) {
       const Step& step = steps_[k];
       EdgeFit edges(on.modes, [&](const std::vector<double>& u) { return at_points(on, step, u); });
-      if (auto problem = settle(body, edges, on, k))
-        return Status::failed(fmt::format("full_field: step {:g}: {}", step.value, *problem));
+      if (auto problem = settle(body, edges, on, k)) return Status::failed(step_name(step) + *problem);
       if (!output.values.empty()) read(on, step, body.displacements(), body.forces(), output.values);
       if (!wants_parameters) continue;
-      if (!body.linearise(true)) return Status::failed(fmt::format("full_field: step {:g}: {}", step.value, singular));
+      if (!body.linearise(true)) return Status::failed(step_name(step) + singular);
       edges.linearise(body);
       for (std::size_t j = 0; j < input.model_parameters.size(); ++j) {
         body.by_parameter(j, du, df);
@@ -250,6 +249,9 @@ class FullField final : public Test {
     return {};
   }
 
+  [[nodiscard]] static std::string step_name(const Step& step) {
+    return fmt::format("full_field: step {:g}: ", step.value);
+  }
   static constexpr std::size_t most_to_begin = 3;  ///< degree of the edges before they are fitted
   static constexpr const char* singular = "the stiffness is singular; narrow the bounds of the model's parameters";
 

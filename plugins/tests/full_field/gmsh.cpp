@@ -111,8 +111,7 @@ Mesh current_mesh(double factor, const std::string& source) {
         fmt::format("full_field: {} has no elements in a plane; give a mesh of triangles in x and y", source));
   if (types.size > 1 || (types.values[0] != triangle_3 && types.values[0] != triangle_6))
     throw InputError(fmt::format(
-        "full_field: {} has other elements than triangles of three or six nodes; mesh the specimen with one of them",
-        source));
+        "full_field: {} has other elements than triangles of three or six nodes; give a mesh of one of them", source));
   const std::size_t count = types.values[0] == triangle_3 ? 3 : 6;
   TUNICA_GMSH(gmshModelMeshGetElementsByType, types.values[0], &element_tags.values, &element_tags.size,
               &element_nodes.values, &element_nodes.size, -1, 0, 1);
