@@ -63,7 +63,10 @@ def experiment(options, source, output, change=lambda made: made):
     made = change(json.loads(without_comments(source.read_text())))
     made.pop("$schema", None)
     for test in made["tests"].values():
-        test["data"]["file"] = os.path.abspath(source.parent / test["data"]["file"])
+        tables = test["data"] if isinstance(test["data"], list) else [test["data"]]
+        for table in tables:
+            key = "numbered_files" if "numbered_files" in table else "file"
+            table[key] = os.path.abspath(source.parent / table[key])
         if test["type"] == "external":
             test["folder"] = os.path.abspath(source.parent)
     made.setdefault("stop", {}).setdefault("max_evaluations", 20000)

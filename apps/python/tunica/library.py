@@ -89,12 +89,19 @@ def _with_files(experiment):
     tests = experiment.get("tests")
     if not isinstance(tests, dict):
         return experiment
+    def kept(data, pointer):
+        if not isinstance(data, dict) or "table" not in data or "file" in data:
+            return data
+        rest = {key: value for key, value in data.items() if key != "table"}
+        return {"file": _kept(data["table"], pointer + "/table"), **rest}
+
     changed = dict(tests)
     for name, test in tests.items():
-        data = test.get("data") if isinstance(test, dict) else None
-        if isinstance(data, dict) and "table" in data and "file" not in data:
-            rest = {key: value for key, value in data.items() if key != "table"}
-            changed[name] = {**test, "data": {"file": _kept(data["table"], f"/tests/{name}/data/table"), **rest}}
+        data, pointer = test.get("data") if isinstance(test, dict) else None, f"/tests/{name}/data"
+        if isinstance(data, list):
+            changed[name] = {**test, "data": [kept(one, f"{pointer}/{k}") for k, one in enumerate(data)]}
+        elif isinstance(data, dict):
+            changed[name] = {**test, "data": kept(data, pointer)}
     return {**experiment, "tests": changed}
 
 
@@ -111,20 +118,21 @@ class FileName(str):
 
 
 def _data_blocks(experiment):
-    """The block "data" of every test, those among them that a run defines for itself."""
+    """The tables of the data of every test, those among them that a run defines for itself."""
     runs = experiment.get("runs")
     own = [run.get("tests") for run in runs if isinstance(run, dict)] if isinstance(runs, list) else []
     for tests in [experiment.get("tests"), *own]:
         for test in tests.values() if isinstance(tests, dict) else ():
-            if isinstance(test, dict) and isinstance(test.get("data"), dict):
-                yield test["data"]
+            data = test.get("data") if isinstance(test, dict) else None
+            yield from (one for one in (data if isinstance(data, list) else [data]) if isinstance(one, dict))
 
 
 def _with_folder(experiment, folder):
     """The experiment, whose names of data files remember their folder."""
     for data in _data_blocks(experiment):
-        if isinstance(data.get("file"), str):
-            data["file"] = FileName(data["file"], folder)
+        for key in ("file", "numbered_files"):
+            if isinstance(data.get(key), str):
+                data[key] = FileName(data[key], folder)
         if isinstance(data.get("files"), list):
             data["files"] = [FileName(name, folder) for name in data["files"]]
     return experiment
@@ -135,7 +143,7 @@ def _base_of(experiment):
     folders = set()
     for data in _data_blocks(experiment):
         several = data.get("files")
-        names = [data.get("file"), *(several if isinstance(several, list) else ())]
+        names = [data.get("file"), data.get("numbered_files"), *(several if isinstance(several, list) else ())]
         folders |= {name.folder for name in names if isinstance(name, FileName) and not os.path.isabs(name)}
     if len(folders) > 1:
         raise InputError(f"the tests come from files in several folders, {' and '.join(sorted(folders))}; write "

@@ -92,8 +92,8 @@ struct TestSetup {
   /// "TISSUE"}). It throws InputError where the program cannot express the model. Empty where a host writes no cards.
   std::function<std::string(const Model& model, std::span<const double> parameters, const CardRequest& request)> card =
       {};
-  /// What was measured of every channel of `rows`, n entries each; NaN = not measured. For a test that prescribes a part
-  /// of what it is compared with, for example the displacements of an edge. Empty where nothing was measured.
+  /// What was measured of every channel of `rows`, n entries each; NaN = not measured. For a test that prescribes a
+  /// part of what it is compared with, for example the displacements of an edge. Empty where nothing was measured.
   std::vector<std::span<const double>> measured = {};
   /// Whether a person ended the work. A test that waits for something outside of the process asks ten times a second,
   /// gives up and returns `failed`; what it returns is then not recorded. Empty where a host cannot be interrupted.

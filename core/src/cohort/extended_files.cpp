@@ -19,15 +19,24 @@ std::string moved(const std::string& name, const std::filesystem::path& from) {
                             : (std::filesystem::absolute(from.empty() ? "." : from) / path).lexically_normal().string();
 }
 
-/// Measured data stay where they are: every "file" and "files" of a test's data.
+/// Measured data stay where they are: every "file", "files" and "numbered_files" of a table.
+void move_table(Json& data, const std::filesystem::path& from) {
+  if (!data.is_object()) return;
+  for (const char* key : {"file", "numbered_files"})
+    if (data.contains(key) && data[key].is_string()) data[key] = moved(data[key], from);
+  if (data.contains("files") && data["files"].is_array())
+    for (Json& file : data["files"])
+      if (file.is_string()) file = moved(file, from);
+}
+
 void move_data(Json& experiment, const std::filesystem::path& from) {
   for (auto& [name, test] : experiment["tests"].items()) {
-    if (!test.contains("data") || !test["data"].is_object()) continue;
+    if (!test.contains("data")) continue;
     Json& data = test["data"];
-    if (data.contains("file") && data["file"].is_string()) data["file"] = moved(data["file"], from);
-    if (data.contains("files") && data["files"].is_array())
-      for (Json& file : data["files"])
-        if (file.is_string()) file = moved(file, from);
+    if (data.is_array())
+      for (Json& table : data) move_table(table, from);
+    else
+      move_table(data, from);
   }
 }
 

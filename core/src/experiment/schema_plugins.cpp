@@ -118,7 +118,15 @@ Json data_schema(const TestFactory& factory) {
   if (!constants.empty())
     properties["constant"] =
         object_schema("Prescribed quantities that are the same in all rows.", std::move(constants));
-  properties["columns"] = columns_schema(factory.observables);
+  Json columns = columns_schema(factory.observables);
+  // A quantity that every row needs has a column, unless it is the number of a file or a constant.
+  Json needed = Json::object();
+  for (const char* key : {"required", "allOf"})
+    if (columns.contains(key)) {
+      needed[key] = columns[key];
+      columns.erase(key);
+    }
+  properties["columns"] = std::move(columns);
   for (const char* name : {"stress_measure", "rows", "where", "order", "time_from"}) properties[name] = reference(name);
   add_rig_properties(properties, factory.observables);
   Json per_channel = Json::object();
@@ -129,6 +137,10 @@ Json data_schema(const TestFactory& factory) {
   properties["noise"]["anyOf"] =
       Json::array({reference("noise"), object_schema("By channel.", std::move(per_channel))});
   Json schema = object_schema("The measured data.", std::move(properties), {"columns"});
+  if (!needed.empty())
+    schema["anyOf"] = Json::array({{{"properties", {{"columns", std::move(needed)}}}},
+                                   {{"required", {"numbered_files"}}},
+                                   {{"required", {"constant"}}}});
   schema["oneOf"] =
       Json::array({{{"required", {"file"}}}, {{"required", {"files"}}}, {{"required", {"numbered_files"}}}});
   return schema;
