@@ -14,7 +14,7 @@ class Tables : public testing::Reading {
  protected:
   Tables() {
     for (const char* frame : {"frame_2.csv", "frame_10.csv", "frame_x.csv"})
-      static_cast<void>(folder.write(frame, "stress [kPa],q\n1,0.5\n2,-1\n3,0.2\n"));
+      static_cast<void>(folder.write(frame, "stress [kPa],q\n1,0.5\n2,-1\n3,0.2\n4,0.9\n"));
   }
   /// The example, its strip with this value of "data".
   static std::string strip(std::string_view data) {
@@ -78,11 +78,11 @@ TEST_F(Tables, TakeWhatAMachineWrites) {
 
 TEST_F(Tables, AreOneAFileWithItsNumber) {
   const auto experiment = read(strip(
-      R"({"numbered_files": "frame_*.csv", "columns": {"stress": "stress"}, "where": {"q": ">= 0"}, "noise": {"relative": 0.02}})"));
+      R"({"numbered_files": "frame_*.csv", "columns": {"stress": "stress"}, "where": {"q": [">= 0", "< 0.6"]}, "noise": {"relative": 0.02}})"));
   const data::Dataset all = data::read_dataset(experiment.test("circumferential_strip").data,
                                                testing::fake_catalogue().tests().at("uniaxial").factory.observables);
   EXPECT_EQ(all.abscissae[0].second, (std::vector<double>{2, 2, 10, 10})) << "by number, not by name";
-  EXPECT_EQ(all.channels[0].values, (std::vector<double>{1, 3, 1, 3})) << "q below 0 is left out";
+  EXPECT_EQ(all.channels[0].values, (std::vector<double>{1, 3, 1, 3})) << "q below 0 and above 0.6 is left out";
   EXPECT_EQ(read(experiment.input_json).input_json, experiment.input_json);
 }
 

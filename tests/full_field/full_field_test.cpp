@@ -30,6 +30,7 @@ struct Plate {
   std::string mesh = R"({"size": 2})", shape = R"({"rectangle": [10, 6], "corner": [-3, 1]})",
               boundary = R"({"left": "measured", "right": "measured", "bottom": "measured", "top": "measured"})",
               state = "plane_stress";
+  std::string unseen = "refuse";
   double angle = 0;
   std::int64_t smoothing = 2;
 };
@@ -64,6 +65,7 @@ std::unique_ptr<Test> make(const Plate& of, const Measured& measured) {
   for (const auto& [name, value] : {std::pair("mesh", of.mesh), std::pair("shape", of.shape),
                                     std::pair("boundary", of.boundary), std::pair("state", of.state)})
     setup.options.set(name, value);
+  setup.options.set("unseen_sides", of.unseen);
   setup.options.set("thickness", 2.0);
   setup.options.set("material_angle", of.angle);
   setup.options.set("smoothing", of.smoothing);
@@ -237,6 +239,7 @@ TEST(FullField, ConvergesWithTheMesh) {
   for (const char* size : {"0.28", "0.14", "0.05"}) {
     Plate setup;
     setup.mesh = std::string(R"({"size": )") + size + "}";
+    setup.unseen = "accept";
     setup.shape = R"({"rectangle": [3, 3], "holes": [{"centre": [0, 0], "radius": 1.5}]})";
     setup.boundary = R"({"left": {"x": "fixed"}, "right": {"x": "uniform"}, "bottom": {"y": "fixed"},
                          "top": {"y": "uniform"}})";
@@ -298,6 +301,16 @@ TEST(FullField, RefusesWhatItCannotSimulate) {
   for (std::size_t i = 0; i < gap.x.size(); ++i)
     if (gap.x[i] < 0 && gap.y[i] > 4) gap.ux[i] = nan;
   EXPECT_THAT(refusal({}, gap), HasSubstr("no point lies near it"));
+  const auto taller = [](Plate& s) {
+    s.shape = R"({"rectangle": [10, 8], "corner": [-3, 1]})";
+    s.boundary = R"({"left": {"x": "uniform", "y": "fixed"}, "right": {"x": "uniform"}})";
+  };
+  EXPECT_THAT(with(taller), HasSubstr("beyond the points on the top side"));
+  EXPECT_EQ(with([&](Plate& s) {
+              taller(s);
+              s.unseen = "accept";
+            }),
+            "none");
   EXPECT_THAT(with([](Plate& s) { s.mesh = R"({"file": 3})"; }), HasSubstr("is no text"));
   Measured alone = measured;
   alone.channels = {"uy"};

@@ -49,16 +49,24 @@ void warn_of_short_chains(const Posterior& made, const RunSummary& summary, std:
   for (std::size_t j = 0; j < made.parameters.size(); ++j)
     if (!is_settled(made.parameters[j].convergence)) names.push_back(summary.parameters[j].name);
   if (names.empty()) return;
+  // As effective sizes grow with the draws, more of them would not do.
+  const bool hopeless = made.effective_size() * static_cast<double>(most_draws) <
+                        posterior::least_effective_size * static_cast<double>(made.draws());
+  const std::string cure =
+      hopeless ? fmt::format("More draws will hardly do, since the data leave a long valley; fix one of {}",
+                             text::joined(names))
+               : fmt::format("Draw more with --posterior={}", std::min(4 * made.draws(), most_draws));
   warnings.push_back(
       {WarningKind::posterior_not_converged,
        fmt::format("the chains of the posterior are too short for {}: R-hat is {:.3f} (at most {:g}), the effective "
-                   "sample size {:.0f} (at least {:g}), so quantiles are rough. Draw more with --posterior={}",
+                   "sample size {:.0f} (at least {:g}), so quantiles are rough. {}",
                    text::joined(names), made.r_hat(), posterior::largest_r_hat, made.effective_size(),
-                   posterior::least_effective_size, std::min(4 * made.draws(), most_draws)),
+                   posterior::least_effective_size, cure),
        summary.label, names});
 }
 
 void warn_of_disagreement(const Posterior& made, RunSummary& summary, std::vector<execution::Warning>& warnings) {
+  if (!made.converged()) return;  // rough quantiles judge nothing
   std::vector<std::string> names;
   for (std::size_t j = 0; j < made.parameters.size(); ++j) {
     const Estimate& estimate = summary.parameters[j];

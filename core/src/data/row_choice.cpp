@@ -42,6 +42,9 @@ bool same_value(const std::string& cell, const std::string& wanted) {
   return of_cell == number(wanted);
 }
 
+/// ">= 0", not a value.
+bool is_bound(const std::string& wanted) { return wanted.starts_with('>') || wanted.starts_with('<'); }
+
 /// A branch and the number of its cycle; a column of cycles parts branches too.
 std::vector<Branch> numbered_branches(const RawPath& path) {
   std::vector<Branch> branches = branches_of(path.path.values, path.rest);
@@ -125,9 +128,18 @@ std::vector<const Csv::Row*> rows_where(const Csv& csv, const DataRequest& reque
       if (std::none_of(rows.begin(), rows.end(), [&](const Csv::Row* row) { return has(row, value); }))
         throw InputError(fmt::format("{}: no row left has the value '{}' that \"where\" asks for. {}",
                                      csv.place(csv.header_line, column), excerpt(value), suggestion(value, present)));
+    // All bounds hold together, and of values one.
+    const bool any_value = !std::all_of(wanted.begin(), wanted.end(), is_bound);
     std::erase_if(rows, [&](const Csv::Row* row) {
-      return std::none_of(wanted.begin(), wanted.end(), [&](const std::string& value) { return has(row, value); });
+      const auto fits = [&](const std::string& value) { return has(row, value); };
+      const auto beyond = [&](const std::string& value) { return is_bound(value) && !fits(value); };
+      const auto one_of = [&](const std::string& value) { return !is_bound(value) && fits(value); };
+      return std::any_of(wanted.begin(), wanted.end(), beyond) ||
+             (any_value && std::none_of(wanted.begin(), wanted.end(), one_of));
     });
+    if (rows.empty())
+      throw InputError(fmt::format("{}: no row left is within all bounds that \"where\" asks for. Widen one of them.",
+                                   csv.place(csv.header_line, column)));
   }
   return rows;
 }

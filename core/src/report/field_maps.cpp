@@ -56,14 +56,15 @@ Json squares(const std::vector<std::array<double, 3>>& points, const std::string
   const double side = std::max(std::sqrt(width * height / wanted), std::max(width, height) / 400);
   std::map<std::pair<long, long>, std::pair<double, int>> sums;
   for (const auto& [x, y, value] : points) {
-    auto& [sum, count] =
-        sums[{std::lround(std::floor((x - box[0]) / side)), std::lround(std::floor((y - box[2]) / side))}];
+    auto& [sum, count] = sums[{std::lround((x - box[0]) / side), std::lround((y - box[2]) / side)}];
     sum += value;
     ++count;
   }
   Json corners = Json::array(), cells = Json::array(), values = Json::array();
   for (const auto& [at, sum] : sums) {
-    const double x = box[0] + side * static_cast<double>(at.first), y = box[2] + side * static_cast<double>(at.second);
+    // The square lies around its places.
+    const double x = box[0] + side * (static_cast<double>(at.first) - 0.5),
+                 y = box[2] + side * (static_cast<double>(at.second) - 0.5);
     for (const auto& [right, up] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
       cells.push_back(corners.size() / 2);
       corners.push_back(short_number(x + right * side));
@@ -71,8 +72,8 @@ Json squares(const std::vector<std::array<double, 3>>& points, const std::string
     }
     values.push_back(short_number(sum.first / sum.second));
   }
-  chart.x = {"x [mm]", false, {}, {{box[0] - side, box[1] + 2 * side}}};
-  chart.y = {"y [mm]", false, {}, {{box[2] - side, box[3] + 2 * side}}};
+  chart.x = {"x [mm]", false, {}, {{box[0] - side, box[1] + side}}};
+  chart.y = {"y [mm]", false, {}, {{box[2] - side, box[3] + side}}};
   return {{"points", std::move(corners)}, {"cells", std::move(cells)}, {"values", std::move(values)}, {"title", title}};
 }
 

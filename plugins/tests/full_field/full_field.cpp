@@ -35,6 +35,7 @@ class FullField final : public Test {
     bind(setup);
     take_frames(setup);
     mesh_ = meshed(mesh_of(setup));
+    if (setup.options.text("unseen_sides") == "refuse") refuse_unseen_sides();
     for (const Channel channel : channels_) refuse_force(static_cast<std::size_t>(channel));
     description_.costly = true;
     description_.volume = plane_strain_ ? TestDescription::Volume::free : TestDescription::Volume::either;
@@ -137,6 +138,29 @@ class FullField final : public Test {
         throw InputError(fmt::format("full_field: row {} has one of x and y; give both, or none for forces", i + 1));
       which_.push_back({number.at(step[i]), std::isfinite(x[i]), 0});
       steps_[which_.back().step].rows.push_back(i);
+    }
+  }
+
+  /// A mesh that reaches beyond the points takes the load of what may not be there.
+  void refuse_unseen_sides() const {
+    const Specimen& specimen = mesh_->specimen;
+    double area = 0;
+    for (const auto& point : specimen.elements().gauss) area += point.weight;
+    for (const Step& step : steps_) {
+      const double spacing = std::sqrt(area / static_cast<double>(step.frame.points.size()));
+      for (std::size_t side = 0; side < 4; ++side) {
+        const std::size_t axis = axis_of(side);
+        const double end = specimen.mesh().nodes[specimen.nodes_on(side).front()][axis];
+        double gap = 1e300;
+        for (const Vector& point : step.frame.points) gap = std::min(gap, std::abs(point[axis] - end));
+        if (gap > most_spacings * spacing)
+          throw InputError(
+              fmt::format("full_field: step {:g}: the mesh reaches {:.3g} mm beyond the points on the {} side, and "
+                          "points are {:.3g} mm "
+                          "apart; give a shape that ends where the specimen does, or write \"unseen_sides\": "
+                          "\"accept\" where it does",
+                          step.value, gap, side_names[side], spacing));
+      }
     }
   }
 
@@ -252,6 +276,7 @@ class FullField final : public Test {
   [[nodiscard]] static std::string step_name(const Step& step) {
     return fmt::format("full_field: step {:g}: ", step.value);
   }
+  static constexpr double most_spacings = 1.5;     ///< from a side to the nearest point
   static constexpr std::size_t most_to_begin = 3;  ///< degree of the edges before they are fitted
   static constexpr const char* singular = "the stiffness is singular; narrow the bounds of the model's parameters";
 
@@ -356,6 +381,8 @@ TestFactory factory() {
                       "Whether the faces are free or held through the thickness."),
        Option::quantity("material_angle", "deg", -360,
                         "From x counter-clockwise to the circumferential axis of the material.", 0.0),
+       Option::choice("unseen_sides", {"refuse", "accept"}, "refuse",
+                      "What to do where a side lies more than 1.5 spacings from the nearest point."),
        Option::integer("smoothing", 6, {0, 20}, "Degree of the polynomial along a measured side.")},
       {{"step", "1", Role::abscissa, true, "Number of the frame, or any number that grows."},
        {"x", "mm", Role::abscissa, false, "Place of the point before loading."},
