@@ -113,9 +113,8 @@ std::vector<Mode> modes(const Specimen& specimen, const Edges& edges, std::size_
 
 std::vector<double> beginning(const Specimen& specimen, const Edges& edges, const Frame& frame, std::size_t degree) {
   std::vector<double> u(specimen.dofs(), 0.0);
-  double area = 0;
-  for (const auto& point : specimen.elements().gauss) area += point.weight;
-  const double spacing = std::sqrt(area / static_cast<double>(std::max<std::size_t>(frame.points.size(), 1)));
+  const double spacing =
+      std::sqrt(specimen.area() / static_cast<double>(std::max<std::size_t>(frame.points.size(), 1)));
   const auto& all = specimen.mesh().nodes;
   for (std::size_t side = 0; side < 4; ++side)
     for (std::size_t c = 0; c < 2; ++c) {

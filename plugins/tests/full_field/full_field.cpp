@@ -144,15 +144,10 @@ class FullField final : public Test {
   /// A mesh that reaches beyond the points takes the load of what may not be there.
   void refuse_unseen_sides() const {
     const Specimen& specimen = mesh_->specimen;
-    double area = 0;
-    for (const auto& point : specimen.elements().gauss) area += point.weight;
     for (const Step& step : steps_) {
-      const double spacing = std::sqrt(area / static_cast<double>(step.frame.points.size()));
+      const double spacing = std::sqrt(specimen.area() / static_cast<double>(step.frame.points.size()));
       for (std::size_t side = 0; side < 4; ++side) {
-        const std::size_t axis = axis_of(side);
-        const double end = specimen.mesh().nodes[specimen.nodes_on(side).front()][axis];
-        double gap = 1e300;
-        for (const Vector& point : step.frame.points) gap = std::min(gap, std::abs(point[axis] - end));
+        const double gap = specimen.gap(side, step.frame.points);
         if (gap > most_spacings * spacing)
           throw InputError(
               fmt::format("full_field: step {:g}: the mesh reaches {:.3g} mm beyond the points on the {} side, and "

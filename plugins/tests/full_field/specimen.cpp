@@ -104,6 +104,20 @@ void Specimen::make_elements() {
   }
 }
 
+double Specimen::area() const {
+  double sum = 0;
+  for (const auto& point : elements_.gauss) sum += point.weight;
+  return sum;
+}
+
+double Specimen::gap(std::size_t side, const std::vector<Vector>& points) const {
+  const std::size_t axis = axis_of(side);
+  const double end = outwards(side) > 0 ? high_[axis] : low_[axis];
+  double nearest = 1e300;
+  for (const Vector& point : points) nearest = std::min(nearest, std::abs(point[axis] - end));
+  return nearest;
+}
+
 std::optional<Place> Specimen::find(Vector point) const {
   std::optional<Place> best;
   double best_outside = allowance;

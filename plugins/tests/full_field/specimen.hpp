@@ -45,6 +45,9 @@ class Specimen {
   [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }  ///< dofs, by unknown
   [[nodiscard]] bool held(std::size_t dof) const { return unknown_[dof] == none; }
   [[nodiscard]] const std::vector<std::size_t>& nodes_on(std::size_t side) const { return sides_[side]; }
+  [[nodiscard]] double area() const;
+  /// From a side to the nearest of these points, along its normal.
+  [[nodiscard]] double gap(std::size_t side, const std::vector<Vector>& points) const;
   [[nodiscard]] double extent(std::size_t axis) const { return high_[axis] - low_[axis]; }
   /// A matrix with the pattern of the stiffness over the unknowns, lower triangle.
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
