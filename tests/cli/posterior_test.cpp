@@ -74,8 +74,9 @@ TEST(PosteriorOfARun, WarnsOfShortChainsAndOfLimitsElsewhere) {
       for (const std::size_t end : {0, 1})
         differs = differs || std::abs(linear[end].get<double>() - drawn[end].get<double>()) > half / 2;
     }
-    EXPECT_EQ(told("posterior_not_converged"), !best["posterior"]["converged"].get<bool>()) << run["run"];
-    EXPECT_EQ(told("posterior_disagrees"), differs) << run["run"];
+    const bool settled = best["posterior"]["converged"].get<bool>();
+    EXPECT_EQ(told("posterior_not_converged"), !settled) << run["run"];
+    EXPECT_EQ(told("posterior_disagrees"), differs && settled) << run["run"] << ": rough quantiles judge nothing";
     short_chains += told("posterior_not_converged");
     elsewhere += told("posterior_disagrees");
   }

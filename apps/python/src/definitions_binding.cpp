@@ -136,7 +136,12 @@ void define_mechanism(Library& library, const py::dict& declared) {
         const py::dict rows(py::arg("abscissae") = abscissae, py::arg("channels") = base->rows().channels,
                             py::arg("count") = base->rows().count, py::arg("stress_measure") = "",
                             py::arg("time") = std::vector<double>(base->rows().time.begin(), base->rows().time.end()));
-        return Kept(maker.get()(rows, **keywords_of(options)));
+        // The options of the test come along; the mechanism takes those that it declares.
+        const py::dict given = keywords_of(options);
+        py::dict own;
+        for (const Option& option : bare.options)
+          if (given.contains(option.name.c_str())) own[option.name.c_str()] = given[option.name.c_str()];
+        return Kept(maker.get()(rows, **own));
       });
       return std::make_unique<PythonReadings>(bare, std::move(base), std::move(object));
     };
