@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "mechanisms/shelf.hpp"
+#include "stability/sheared.hpp"
 
 namespace tunica {
 namespace {
@@ -30,18 +31,6 @@ double energy(const Model& model, const std::vector<double>& p, const std::array
   double W = 0;
   const Status status = model.evaluate({1, C, p, {}, {}}, {{&W, 1}, {}, {}, {}, {}});
   return status.ok() ? W : std::nan("");
-}
-
-/// C of (1 + ε m⊗n) F, F diagonal.
-std::array<double, 6> sheared(const std::array<double, 3>& stretch, const std::array<double, 3>& m,
-                              const std::array<double, 3>& n, double epsilon) {
-  double F[3][3];
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) F[i][j] = ((i == j) + epsilon * m[i] * n[j]) * stretch[j];
-  const auto C = [&](std::size_t a, std::size_t b) {
-    return F[0][a] * F[0][b] + F[1][a] * F[1][b] + F[2][a] * F[2][b];
-  };
-  return {C(0, 0), C(1, 1), C(2, 2), C(0, 1), C(1, 2), C(2, 0)};
 }
 
 // m·Q(n) m is the second derivative of W along F' = m⊗n F.

@@ -7,6 +7,7 @@
 
 #include "plugins/guarded.hpp"
 #include "stability/admissibility.hpp"
+#include "stability/sheared.hpp"
 #include "support/loaded.hpp"
 
 namespace tunica::stability::compressible_test {
@@ -36,18 +37,6 @@ double energy(const Model& model, const std::vector<double>& p, const std::array
   return W;
 }
 
-/// C of (1 + ε m⊗n) F, F diagonal.
-std::array<double, 6> moved(const std::array<double, 3>& stretch, const std::array<double, 3>& m,
-                            const std::array<double, 3>& n, double epsilon) {
-  double F[3][3];
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) F[i][j] = ((i == j) + epsilon * m[i] * n[j]) * stretch[j];
-  const auto C = [&](std::size_t a, std::size_t b) {
-    return F[0][a] * F[0][b] + F[1][a] * F[1][b] + F[2][a] * F[2][b];
-  };
-  return {C(0, 0), C(1, 1), C(2, 2), C(0, 1), C(1, 2), C(2, 0)};
-}
-
 // m·Q(n) m is the second derivative of W along F' = m⊗n F, for any m. No other pair of directions has less.
 TEST(CompressibleStability, TheWeakestWaveIsTheCurvatureOfTheEnergy) {
   const auto model = compressible(testing::make_model("gho"), "full", "logarithmic");
@@ -60,7 +49,7 @@ TEST(CompressibleStability, TheWeakestWaveIsTheCurvatureOfTheEnergy) {
     ASSERT_TRUE(least);
     const double h = 1e-4;
     const auto curvature = [&](const std::array<double, 3>& m, const std::array<double, 3>& n) {
-      const auto W = [&](double epsilon) { return energy(*model, p, moved(stretch, m, n, epsilon)); };
+      const auto W = [&](double epsilon) { return energy(*model, p, sheared(stretch, m, n, epsilon)); };
       return (W(h) - 2 * W(0) + W(-h)) / (h * h);
     };
     EXPECT_NEAR(curvature(verdict.m, verdict.n), *least, 1e-5 * *least);

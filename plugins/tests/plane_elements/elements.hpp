@@ -41,16 +41,9 @@ struct Elements {
     const std::size_t n = points();
     F.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
-      const auto& element = nodes[i / Q];
-      const Gauss& g = gauss[i];
-      double xx = 1, xy = 0, yx = 0, yy = 1;
-      for (std::size_t a = 0; a < N; ++a) {
-        const double ux = u[2 * element[a]], uy = u[2 * element[a] + 1];
-        xx += ux * g.x[a];
-        xy += ux * g.y[a];
-        yx += uy * g.x[a];
-        yy += uy * g.y[a];
-      }
+      auto [xx, xy, yx, yy] = slope(i, u);
+      xx += 1;
+      yy += 1;
       F[i] = {xx, xy, yx, yy};
       membrane.C[i] = xx * xx + yx * yx;
       membrane.C[n + i] = xy * xy + yy * yy;
@@ -62,16 +55,11 @@ struct Elements {
   void add_forces(const std::vector<Gradient>& F, std::span<const double> stress, std::vector<double>& f) const {
     const std::size_t n = points();
     for (std::size_t i = 0; i < n; ++i) {
-      const auto& element = nodes[i / Q];
-      const Gauss& g = gauss[i];
       const auto [xx, xy, yx, yy] = F[i];
-      const double S0 = g.weight * stress[i], S1 = g.weight * stress[n + i], S2 = g.weight * stress[2 * n + i];
+      const double weight = gauss[i].weight;
+      const double S0 = weight * stress[i], S1 = weight * stress[n + i], S2 = weight * stress[2 * n + i];
       // P = F S
-      const double Pxx = xx * S0 + xy * S2, Pxy = xx * S2 + xy * S1, Pyx = yx * S0 + yy * S2, Pyy = yx * S2 + yy * S1;
-      for (std::size_t a = 0; a < N; ++a) {
-        f[2 * element[a]] += Pxx * g.x[a] + Pxy * g.y[a];
-        f[2 * element[a] + 1] += Pyx * g.x[a] + Pyy * g.y[a];
-      }
+      scatter(i, {xx * S0 + xy * S2, xx * S2 + xy * S1, yx * S0 + yy * S2, yx * S2 + yy * S1}, f);
     }
   }
 
@@ -80,17 +68,9 @@ struct Elements {
                         std::vector<double>& f) const {
     const std::size_t n = points();
     for (std::size_t i = 0; i < n; ++i) {
-      const auto& element = nodes[i / Q];
       const Gauss& g = gauss[i];
       const auto [xx, xy, yx, yy] = F[i];
-      double dxx = 0, dxy = 0, dyx = 0, dyy = 0;  // δF
-      for (std::size_t a = 0; a < N; ++a) {
-        const double vx = v[2 * element[a]], vy = v[2 * element[a] + 1];
-        dxx += vx * g.x[a];
-        dxy += vx * g.y[a];
-        dyx += vy * g.x[a];
-        dyy += vy * g.y[a];
-      }
+      const auto [dxx, dxy, dyx, dyy] = slope(i, v);  // δF
       // B v = (FᵀδF)_xx, (FᵀδF)_yy, (FᵀδF)_xy + (FᵀδF)_yx
       const std::array<double, 3> strain{xx * dxx + yx * dyx, xy * dxy + yy * dyy,
                                          xx * dxy + yx * dyy + xy * dxx + yy * dyx};
@@ -100,14 +80,10 @@ struct Elements {
         for (std::size_t b = 0; b < 3; ++b) dS[a] += g.weight * membrane.tangent[(3 * a + b) * n + i] * strain[b];
       }
       // δP = δF S + F δS
-      const double Pxx = dxx * S[0] + dxy * S[2] + xx * dS[0] + xy * dS[2];
-      const double Pxy = dxx * S[2] + dxy * S[1] + xx * dS[2] + xy * dS[1];
-      const double Pyx = dyx * S[0] + dyy * S[2] + yx * dS[0] + yy * dS[2];
-      const double Pyy = dyx * S[2] + dyy * S[1] + yx * dS[2] + yy * dS[1];
-      for (std::size_t a = 0; a < N; ++a) {
-        f[2 * element[a]] += Pxx * g.x[a] + Pxy * g.y[a];
-        f[2 * element[a] + 1] += Pyx * g.x[a] + Pyy * g.y[a];
-      }
+      scatter(i,
+              {dxx * S[0] + dxy * S[2] + xx * dS[0] + xy * dS[2], dxx * S[2] + dxy * S[1] + xx * dS[2] + xy * dS[1],
+               dyx * S[0] + dyy * S[2] + yx * dS[0] + yy * dS[2], dyx * S[2] + dyy * S[1] + yx * dS[2] + yy * dS[1]},
+              f);
     }
   }
 
@@ -162,6 +138,31 @@ struct Elements {
   }
 
  private:
+  /// Σ u ∂N/∂X at a Gauss point: xx, xy, yx, yy.
+  [[nodiscard]] Gradient slope(std::size_t i, std::span<const double> u) const {
+    const auto& element = nodes[i / Q];
+    const Gauss& g = gauss[i];
+    Gradient sum{};
+    for (std::size_t a = 0; a < N; ++a) {
+      const double ux = u[2 * element[a]], uy = u[2 * element[a] + 1];
+      sum[0] += ux * g.x[a];
+      sum[1] += ux * g.y[a];
+      sum[2] += uy * g.x[a];
+      sum[3] += uy * g.y[a];
+    }
+    return sum;
+  }
+
+  /// f += P ∂N/∂X of a Gauss point, P with its weight: xx, xy, yx, yy.
+  void scatter(std::size_t i, const Gradient& P, std::vector<double>& f) const {
+    const auto& element = nodes[i / Q];
+    const Gauss& g = gauss[i];
+    for (std::size_t a = 0; a < N; ++a) {
+      f[2 * element[a]] += P[0] * g.x[a] + P[1] * g.y[a];
+      f[2 * element[a] + 1] += P[2] * g.x[a] + P[3] * g.y[a];
+    }
+  }
+
   /// K += w (Bᵀ D B + geometric part), D = 2 ∂S̄/∂C̄.
   void add_point(std::size_t i, const Gradient& F, const Membrane& membrane,
                  Eigen::Matrix<double, dofs, dofs>& K) const {
