@@ -39,7 +39,7 @@ TEST(Ellipticity, WeakestValueIsTheCurvatureOfTheEnergyInItsShear) {
   for (const std::array<double, 3> stretch : {std::array<double, 3>{1.4, 0.9, 1 / 1.26}, {0.8, 1.5, 1 / 1.2}}) {
     const auto verdict = stability::judge_ellipticity(*gho, set_s, {Path{"one", {{stretch, 1.4}}}});
     const auto at = [&](double epsilon) {
-      return energy(*gho, set_s, sheared(stretch, verdict.m, verdict.n, epsilon));
+      return energy(*gho, set_s, stability::sheared(stretch, verdict.m, verdict.n, epsilon));
     };
     const double h = 1e-4;
     EXPECT_NEAR((at(h) - 2 * at(0) + at(-h)) / (h * h), verdict.weakest, 1e-5 * verdict.weakest);
@@ -48,7 +48,7 @@ TEST(Ellipticity, WeakestValueIsTheCurvatureOfTheEnergyInItsShear) {
       const double a = 0.7 * k, b = 1.3 * k;
       const std::array<double, 3> n{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)};
       const std::array<double, 3> m{std::cos(a) * std::cos(b), std::cos(a) * std::sin(b), -std::sin(a)};
-      const auto here = [&](double epsilon) { return energy(*gho, set_s, sheared(stretch, m, n, epsilon)); };
+      const auto here = [&](double epsilon) { return energy(*gho, set_s, stability::sheared(stretch, m, n, epsilon)); };
       EXPECT_GT((here(h) - 2 * here(0) + here(-h)) / (h * h), 0.999 * verdict.weakest);
     }
   }
