@@ -60,9 +60,11 @@ TEST_F(Tables, AreReadOneAfterTheOther) {
 
 /// A force becomes a stress by the size of the specimen, in a table as elsewhere.
 TEST_F(Tables, TakeWhatAMachineWrites) {
-  static_cast<void>(folder.write("raw.csv", "stretch,F [mN]\n1,0\n1.1,8\n1.2,20\n"));
+  static_cast<void>(folder.write("raw.csv", "stretch,F [mN],S [kPa]\n1,0,0\n1.1,8,2\n1.2,20,5\n"));
   const auto experiment =
       read(strip(R"([{"file": "raw.csv", "columns": {"stretch": "stretch", "force": "F"}, "specimen": {"area": 4},
+                 "stress_measure": "first_piola_kirchhoff", "noise": {"absolute": "1 kPa"}},
+                {"file": "raw.csv", "columns": {"stretch": "stretch", "stress": "S"},
                  "stress_measure": "first_piola_kirchhoff", "noise": {"absolute": "1 kPa"}},
                 {"file": "circ2.csv", "columns": {"stretch": "stretch", "transverse_stretch": "stretch"}}])"));
   const auto& observables = testing::fake_catalogue().tests().at("uniaxial").factory.observables;
@@ -70,10 +72,13 @@ TEST_F(Tables, TakeWhatAMachineWrites) {
   ASSERT_EQ(all.channels.size(), 2u);
   EXPECT_EQ(all.channels[0].observable, "stress");
   EXPECT_DOUBLE_EQ(all.channels[0].values[2], 5);
+  EXPECT_DOUBLE_EQ(all.channels[0].values[5], 5) << "a stress as it is continues the channel";
+  EXPECT_EQ(experiment.test("circumferential_strip").weights.size(), 2u);
   EXPECT_EQ(all.channels[0].noise->absolute, 1);
   EXPECT_EQ(experiment.test("circumferential_strip").data.stress_measure, "first_piola_kirchhoff");
   EXPECT_EQ(read(experiment.input_json).input_json, experiment.input_json)
       << "a table without stress states no measure";
+  EXPECT_EQ(read(experiment.input_json).test("circumferential_strip").data.noise.size(), 1u) << "noise is written too";
 }
 
 TEST_F(Tables, AreOneAFileWithItsNumber) {

@@ -62,9 +62,9 @@ data::DataRequest read_tables(const Node& list, const std::vector<Observable>& o
       block.child_or_self("files").fail("replicates are given in one of several tables",
                                         "Give each table one \"file\", or make each replicate a test of its own.");
     table.part = true;
-    const bool stress = std::ranges::any_of(table.columns, [&](const auto& column) {
-      return data::quantity_named(column.first, observables)->observable->kind == Observable::Kind::stress;
-    });
+    const auto gives = [&](const auto& column) { return data::quantity_named(column.first, observables)->observable; };
+    const bool stress = std::ranges::any_of(
+        table.columns, [&](const auto& column) { return gives(column)->kind == Observable::Kind::stress; });
     if (!stress) table.stress_measure = all.stress_measure;
     if (stress && !measure_known) all.stress_measure = table.stress_measure;
     measure_known = measure_known || stress;
@@ -73,7 +73,7 @@ data::DataRequest read_tables(const Node& list, const std::vector<Observable>& o
           .fail(fmt::format("the tables of {} state two stress measures", owner), "Give the same one in all of them.");
     all.files.push_back(table.files.front());
     for (const auto& column : table.columns)
-      if (std::ranges::find(all.columns, column.first, [](const auto& one) { return one.first; }) == all.columns.end())
+      if (std::ranges::none_of(all.columns, [&](const auto& one) { return gives(one) == gives(column); }))
         all.columns.push_back(column);
     for (const auto& [name, noise] : table.noise) {
       const auto same = std::ranges::find(all.noise, name, [](const auto& one) { return one.first; });

@@ -122,17 +122,20 @@ Json to_json(const data::DataRequest& data) {
 }
 
 /// The tables as they were read, with what was since taken out of the whole or changed in it.
-Json tables_to_json(const data::DataRequest& data) {
+Json tables_to_json(const data::DataRequest& data, const std::vector<Observable>& observables) {
   Json list = Json::array();
+  const auto gives = [&](const auto& columns, const std::string& observable) {
+    return std::ranges::any_of(columns, [&](const auto& column) {
+      return data::quantity_named(column.first, observables)->observable->name == observable;
+    });
+  };
   for (data::DataRequest table : data.tables) {
-    const auto among = [](const auto& list, const std::string& name) {
-      return std::ranges::find(list, name, [](const auto& one) { return one.first; });
-    };
-    std::erase_if(table.columns,
-                  [&](const auto& column) { return among(data.columns, column.first) == data.columns.end(); });
+    std::erase_if(table.columns, [&](const auto& column) {
+      return !gives(data.columns, data::quantity_named(column.first, observables)->observable->name);
+    });
     table.noise.clear();
     for (const auto& [name, noise] : data.noise)
-      if (among(table.columns, name) != table.columns.end()) table.noise.emplace_back(name, noise);
+      if (gives(table.columns, name)) table.noise.emplace_back(name, noise);
     list.push_back(to_json(table));
   }
   return list;
@@ -174,8 +177,8 @@ class Writer {
 
   /// A measure of stress stands only where there is a stress: without one the reader refuses it.
   [[nodiscard]] Json data(const TestEntry& entry) const {
-    Json json = entry.data.tables.empty() ? to_json(entry.data) : tables_to_json(entry.data);
     const auto& observables = catalogue_.tests().find(entry.type)->second.factory.observables;
+    Json json = entry.data.tables.empty() ? to_json(entry.data) : tables_to_json(entry.data, observables);
     const auto has_stress = [&](const data::DataRequest& data) {
       return std::any_of(data.columns.begin(), data.columns.end(), [&](const auto& column) {
         const auto quantity = data::quantity_named(column.first, observables);
