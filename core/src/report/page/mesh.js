@@ -7,7 +7,7 @@ tunicaReport.mesh = (() => {
   /// The largest drawing that fits, in pixels.
   const size = (chart, width) => {
     const [left, right] = chart.x.domain, [low, high] = chart.y.domain;
-    const scale = Math.min((width < 520 ? width - 80 : width - 190) / (right - left), 430 / (high - low));
+    const scale = Math.min((width < 400 ? width - 80 : width - 190) / (right - left), 430 / (high - low));
     return {width: Math.max(60, (right - left) * scale), height: Math.max(60, (high - low) * scale), fixed: true};
   };
 
