@@ -67,6 +67,7 @@ std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis,
   for (const assembly::TestPast& one : assembly::unknown_pasts(evidence.experiment, evidence.run, catalogue))
     if (one.past == data::Past::order_unknown) unordered.insert(one.test);
   std::vector<Budget::Untried> all;
+  if (evidence.base->layout().has_costly_tests) all.push_back({"terms of the energy", Budget::Lack::time});
   for (const diagnosis::Candidate& one : analysis.hypotheses.candidates) {
     if (!one.hypotheses.empty()) continue;
     const bool order = std::any_of(one.without_past.begin(), one.without_past.end(),

@@ -51,13 +51,14 @@ struct Budget {
     order,    ///< nobody says in which order the rows were measured
     loading,  ///< the first rows lie far from rest
     volume,   ///< neither a lateral stretch nor a volume was measured
-    size      ///< the file does not say how large the specimen is
+    size,     ///< the file does not say how large the specimen is
+    time      ///< a test is costly, and the search would take hours
   };
   struct Untried {
     std::string id;
     Lack lack;
   };
-  std::vector<Untried> not_looked_for;    ///< mechanisms that could be the cause
+  std::vector<Untried> not_looked_for;    ///< mechanisms, or terms, that could be the cause
   std::shared_ptr<const Mixture> fitted;  ///< all steps; null where there are none
 
   [[nodiscard]] Size rest() const { return steps.empty() ? base : steps.back().rest; }
