@@ -33,6 +33,7 @@ struct Plate {
   std::string unseen = "refuse";
   double angle = 0;
   std::int64_t smoothing = 2;
+  std::string method = "finite_elements";
 };
 
 /// `field` gives the displacement of a point at a load from 0 to 1.
@@ -69,6 +70,7 @@ std::unique_ptr<Test> make(const Plate& of, const Measured& measured) {
   setup.options.set("thickness", 2.0);
   setup.options.set("material_angle", of.angle);
   setup.options.set("smoothing", of.smoothing);
+  setup.options.set("method", of.method);
   setup.rows.count = measured.step.size();
   setup.rows.abscissae = {{"step", measured.step}, {"x", measured.x}, {"y", measured.y}};
   setup.rows.channels = measured.channels;

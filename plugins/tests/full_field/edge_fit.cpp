@@ -21,15 +21,16 @@ void EdgeFit::add(const Eigen::VectorXd& coefficients, std::vector<double>& pres
     for (const auto& [dof, value] : modes_[k]) prescribed[dof] += coefficients[static_cast<Eigen::Index>(k)] * value;
 }
 
-void EdgeFit::follow(std::vector<double>& du, std::vector<double>& df) const {
-  const Eigen::VectorXd change = solve(-reading_(du));
+void EdgeFit::add(const Eigen::VectorXd& coefficients, std::vector<double>& du, std::vector<double>& df) const {
   for (std::size_t k = 0; k < modes_.size(); ++k) {
-    const double by = change[static_cast<Eigen::Index>(k)];
+    const double by = coefficients[static_cast<Eigen::Index>(k)];
     for (std::size_t dof = 0; dof < du.size(); ++dof) {
       du[dof] += by * du_[k][dof];
       df[dof] += by * df_[k][dof];
     }
   }
 }
+
+void EdgeFit::follow(std::vector<double>& du, std::vector<double>& df) const { add(solve(-reading_(du)), du, df); }
 
 }  // namespace tunica::field

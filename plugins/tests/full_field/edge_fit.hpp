@@ -32,6 +32,8 @@ class EdgeFit {
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& rest) const { return G_.solve(rest); }
   /// Adds the modes to prescribed displacements.
   void add(const Eigen::VectorXd& coefficients, std::vector<double>& prescribed) const;
+  /// Adds the responses to the modes, after linearise().
+  void add(const Eigen::VectorXd& coefficients, std::vector<double>& du, std::vector<double>& df) const;
   /// Lets the edges follow a change of displacements and forces by a parameter.
   void follow(std::vector<double>& du, std::vector<double>& df) const;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tunica::field {
 
@@ -89,6 +90,27 @@ std::optional<std::string> Equilibrium::move_to(const std::vector<double>& presc
   }
   return "no equilibrium was found on the way, since the material loses its stability or the mesh is distorted; narrow "
          "the bounds of the model's parameters";
+}
+
+void Equilibrium::begin(State state) {
+  u_ = std::move(state.u);
+  state.normal.resize(membrane_.normal.size(), 1.0);
+  membrane_.normal = std::move(state.normal);
+}
+
+bool Equilibrium::move_by(const std::vector<double>& change) {
+  for (std::size_t dof = 0; dof < u_.size(); ++dof) u_[dof] += change[dof];
+  return evaluate(false, false);
+}
+
+std::vector<double> Equilibrium::newton_step() const {
+  std::vector<double> du(u_.size(), 0.0);
+  add_free(-solve(f_), du);
+  return du;
+}
+
+void Equilibrium::add_force_change(const std::vector<double>& du, std::vector<double>& df) const {
+  specimen_.elements().add_force_change(F_, membrane_, du, df);
 }
 
 bool Equilibrium::linearise(bool by_parameters) {

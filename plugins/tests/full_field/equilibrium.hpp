@@ -23,6 +23,18 @@ class Equilibrium {
   /// Moves to the next step: `prescribed` by dof, read where held. The way is halved where Newton's method fails. Empty
   /// where it arrived, else what went wrong.
   std::optional<std::string> move_to(const std::vector<double>& prescribed);
+  struct State {
+    std::vector<double> u, normal;  ///< displacements by dof; C_rr of every Gauss point, 1 where empty
+  };
+  [[nodiscard]] State state() const { return {u_, membrane_.normal}; }
+  /// Begins at these displacements, in equilibrium or not.
+  void begin(State state);
+  /// Moves by a change of all displacements; false where the material has no answer there.
+  bool move_by(const std::vector<double>& change);
+  /// −K⁻¹ f by dof, 0 where held, with the stiffness of the last linearise() and the forces of where it is.
+  [[nodiscard]] std::vector<double> newton_step() const;
+  /// Adds the change of forces with one of displacements, both by dof, after linearise().
+  void add_force_change(const std::vector<double>& du, std::vector<double>& df) const;
   /// Prepares derivatives at the solution, also by the model's parameters. False where the stiffness has no factor.
   bool linearise(bool by_parameters);
 

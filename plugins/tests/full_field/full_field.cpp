@@ -6,10 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "edge_fit.hpp"
 #include "equilibrium.hpp"
-#include "meshed.hpp"
-#include "settings.hpp"
+#include "prepared.hpp"
+#include "step_solver.hpp"
 #include "tunica/detail/compressible_prediction.hpp"
 #include "tunica/plugin.hpp"
 
@@ -23,24 +22,20 @@ using Kind = Observable::Kind;
 class FullField final : public Test {
  public:
   explicit FullField(const TestSetup& setup)
-      : edges_(edges_of(setup.options)),
-        smoothing_(setup.options.count("smoothing")),
-        thickness_(setup.options.number("thickness")),
+      : thickness_(setup.options.number("thickness")),
         plane_strain_(setup.options.text("state") == "plane_strain"),
-        rows_(setup, edges_) {
+        virtual_fields_(setup.options.text("method") == "virtual_fields"),
+        prepared_(prepared(setup)) {
     if (!(thickness_ > 0))
       throw InputError(fmt::format("full_field: \"thickness\" is {:g} mm; give one above 0", thickness_));
     const double turn = setup.options.number("material_angle") * std::numbers::pi / 180;
     along_ = {std::cos(turn), -std::sin(turn)};
-    mesh_ = std::make_unique<const Meshed>(rows_, edges_, smoothing_, mesh_of(setup));
-    if (setup.options.text("unseen_sides") == "refuse") mesh_->refuse_unseen_sides();
-    mesh_->refuse_forces(edges_);
-    description_.costly = true;
+    description_.costly = !virtual_fields_;
     description_.volume = plane_strain_ ? TestDescription::Volume::free : TestDescription::Volume::either;
   }
 
   [[nodiscard]] const TestDescription& describe() const override { return description_; }
-  [[nodiscard]] const TestRows& rows() const override { return rows_.rows(); }
+  [[nodiscard]] const TestRows& rows() const override { return prepared_->rows.rows(); }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
     if (input.model.describe().history_size > 0)
@@ -49,16 +44,16 @@ class FullField final : public Test {
           "history");
     if (!input.abscissae.empty() || !output.abscissa_derivative.empty())
       return Status::failed("full_field: points are where they were measured; take mechanisms out that move them");
-    return on_mesh(input, output, *mesh_);
+    return on_mesh(input, output, prepared_->mesh);
   }
 
   /// With each triangle in four.
   Status agreement(const TestInput& input, std::vector<Agreement>& found) const override {
-    const std::size_t n = rows_.rows().count, m = rows_.channels().size();
+    const std::size_t n = prepared_->rows.rows().count, m = prepared_->rows.channels().size();
     std::vector<double> coarse(n * m), fine(n * m);
-    if (Status status = on_mesh(input, {coarse, {}, {}, {}}, *mesh_); !status.ok()) return status;
+    if (Status status = on_mesh(input, {coarse, {}, {}, {}}, prepared_->mesh); !status.ok()) return status;
     if (Status status =
-            on_mesh(input, {fine, {}, {}, {}}, Meshed(rows_, edges_, smoothing_, refined(mesh_->specimen().mesh())));
+            on_mesh(input, {fine, {}, {}, {}}, Meshed(prepared_->rows, prepared_->edges, prepared_->smoothing, refined(prepared_->mesh.specimen().mesh())));
         !status.ok())
       return status;
     std::vector<double> shift(n * m);
@@ -69,8 +64,8 @@ class FullField final : public Test {
         for (std::size_t i = k * n; i < (k + 1) * n; ++i) most = std::max(most, std::abs(of[i]));
         return most;
       };
-      found.push_back({fmt::format("each triangle in four: {}", rows_.rows().channels[k]), largest(shift),
-                       is_force(rows_.channels()[k]) ? "mN" : "mm", 0.005 * largest(fine),
+      found.push_back({fmt::format("each triangle in four: {}", prepared_->rows.rows().channels[k]), largest(shift),
+                       is_force(prepared_->rows.channels()[k]) ? "mN" : "mm", 0.005 * largest(fine),
                        k == 0 ? shift : std::vector<double>()});
     }
     return {};
@@ -90,61 +85,29 @@ class FullField final : public Test {
     if (wants_parameters && !input.model.describe().parameter_derivatives)
       return Status::failed("full_field: the model has no parameter derivatives; difference the whole prediction");
     Equilibrium body(on.specimen(), input.model, input.model_parameters, along_, faces);
-    const std::size_t size = rows_.rows().count * rows_.channels().size();
+    const std::size_t size = prepared_->rows.rows().count * prepared_->rows.channels().size();
     std::fill(output.values.begin(), output.values.end(), 0.0);
     std::fill(output.jacobian.begin(), output.jacobian.end(), 0.0);
     std::vector<double> du, df;
-    for (std::size_t k = 0; k < rows_.steps().size(); ++k) {
-      const FieldRows::Step& step = rows_.steps()[k];
-      EdgeFit edges(on.modes(), [&](const std::vector<double>& u) { return on.at_points(step, u); });
-      if (auto problem = settle(body, edges, on, k)) return Status::failed(step_name(step) + *problem);
-      if (!output.values.empty()) on.read(step, body.displacements(), body.forces(), thickness_, output.values);
-      if (!wants_parameters) continue;
-      if (!body.linearise(true)) return Status::failed(step_name(step) + singular);
-      edges.linearise(body);
-      for (std::size_t j = 0; j < input.model_parameters.size(); ++j) {
-        body.by_parameter(j, du, df);
-        edges.follow(du, df);
+    for (std::size_t k = 0; k < prepared_->rows.steps().size(); ++k) {
+      const FieldRows::Step& step = prepared_->rows.steps()[k];
+      StepSolver solver(on, k, body);
+      std::optional<std::string> problem = virtual_fields_ ? solver.step_once(wants_parameters) : solver.settle();
+      if (!problem && !virtual_fields_ && wants_parameters) problem = solver.linearise();
+      if (problem) return Status::failed(fmt::format("full_field: step {:g}: {}", step.value, *problem));
+      if (!output.values.empty()) on.read(step, solver.displacements(), solver.forces(), thickness_, output.values);
+      for (std::size_t j = 0; wants_parameters && j < input.model_parameters.size(); ++j) {
+        solver.by_parameter(j, du, df);
         on.read(step, du, df, thickness_, output.jacobian.subspan(j * size, size));
       }
     }
     return {};
   }
 
-  [[nodiscard]] static std::string step_name(const FieldRows::Step& step) {
-    return fmt::format("full_field: step {:g}: ", step.value);
-  }
-  static constexpr const char* singular = "the stiffness is singular; narrow the bounds of the model's parameters";
-
-  /// Moves to a step and fits its edges to the points: a chord method, whose steps shrink by the bend of the response.
-  std::optional<std::string> settle(Equilibrium& body, EdgeFit& edges, const Meshed& on, std::size_t k) const {
-    constexpr int rounds = 4, chords = 6;
-    const FieldRows::Step& step = rows_.steps()[k];
-    const double small = 1e-9 * std::max(on.specimen().extent(0), on.specimen().extent(1));
-    const Eigen::VectorXd measured = FieldRows::measured(step);
-    std::vector<double> prescribed = on.beginning(k);
-    if (auto problem = body.move_to(prescribed)) return problem;
-    for (int round = 0; round < rounds; ++round) {
-      if (!body.linearise(false)) return singular;
-      edges.linearise(body);
-      for (int chord = 0; chord < chords; ++chord) {
-        const Eigen::VectorXd change = edges.solve(measured - on.at_points(step, body.displacements()));
-        if (!change.allFinite()) return "the edges do not follow from the points; give a smaller \"smoothing\"";
-        edges.add(change, prescribed);
-        if (auto problem = body.move_to(prescribed)) return problem;
-        if (change.lpNorm<Eigen::Infinity>() < small) return {};
-      }
-    }
-    return "the edges that fit the points best were not found; narrow the bounds of the model's parameters";
-  }
-
-  Edges edges_;
-  std::size_t smoothing_;
   double thickness_;
-  bool plane_strain_;
+  bool plane_strain_, virtual_fields_;
   std::array<double, 2> along_{};
-  FieldRows rows_;
-  std::unique_ptr<const Meshed> mesh_;
+  std::shared_ptr<const Prepared> prepared_;
   TestDescription description_;
 };
 
@@ -168,6 +131,8 @@ TestFactory factory() {
                       "Whether the faces are free or held through the thickness."),
        Option::quantity("material_angle", "deg", -360,
                         "From x counter-clockwise to the circumferential axis of the material.", 0.0),
+       Option::choice("method", {"finite_elements", "virtual_fields"}, "finite_elements",
+                      "Whether each step is brought to equilibrium, or takes one step from the measured displacements."),
        Option::choice("unseen_sides", {"refuse", "accept"}, "refuse",
                       "What to do where a side lies more than 1.5 spacings from the nearest point."),
        Option::integer("smoothing", 6, {0, 20}, "Degree of the polynomial along a measured side.")},
@@ -181,7 +146,13 @@ TestFactory factory() {
        force("force_bottom", "bottom"),
        force("force_top", "top")},
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<FullField>(setup); },
-      {}};
+      {},
+      false,
+      [](const Options& options) -> std::optional<StandIn> {
+        StandIn cheaper{"full_field", options};
+        cheaper.options.set("method", std::string("virtual_fields"));
+        return cheaper;
+      }};
 }
 
 }  // namespace

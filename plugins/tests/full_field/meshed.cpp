@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "start.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::field {
@@ -43,6 +44,7 @@ Meshed::Meshed(const FieldRows& rows, const Edges& edges, std::size_t smoothing,
   }
   for (const FieldRows::Step& step : rows_.steps())
     beginnings_.push_back(field::beginning(specimen_, edges, step.frame, std::min(smoothing, most_to_begin)));
+  starts_ = starts(specimen_, rows_, places_, modes_);
 }
 
 void Meshed::refuse_unseen_sides() const {

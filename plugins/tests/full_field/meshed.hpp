@@ -20,6 +20,9 @@ class Meshed {
 
   [[nodiscard]] const Specimen& specimen() const { return specimen_; }
   [[nodiscard]] const std::vector<Mode>& modes() const { return modes_; }  ///< in which edges may move
+  [[nodiscard]] const FieldRows& rows() const { return rows_; }
+  /// The smoothed measured displacements of a step, by dof.
+  [[nodiscard]] const std::vector<double>& start(std::size_t step) const { return starts_[step]; }
   /// Where the edges of a step begin, by dof.
   [[nodiscard]] const std::vector<double>& beginning(std::size_t step) const { return beginnings_[step]; }
   /// Displacements by dof where they were measured in a step, as FieldRows::measured().
@@ -39,7 +42,7 @@ class Meshed {
   [[nodiscard]] double at(std::size_t point, std::size_t component, const std::vector<double>& u) const;
   const FieldRows& rows_;
   Specimen specimen_;
-  std::vector<std::vector<double>> beginnings_;
+  std::vector<std::vector<double>> beginnings_, starts_;
   std::vector<Mode> modes_;
   std::vector<Place> places_;  ///< of the points of the rows
 };

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge_fit.hpp"
+#include "equilibrium.hpp"
+#include "meshed.hpp"
+
+namespace tunica::field {
+
+/// One step of a measured field: the equilibrium between the edges that fit its points best, and its derivatives. Not
+/// shared between threads.
+class StepSolver {
+ public:
+  /// Keeps `on` and `body` by reference; `step` counts from 0.
+  StepSolver(const Meshed& on, std::size_t step, Equilibrium& body);
+
+  /// Finite elements: the equilibrium itself, from the measured displacements, and where that fails along the way from
+  /// the step before. Empty where it is found, else what went wrong.
+  std::optional<std::string> settle();
+  /// One step of Newton's method from the smoothed measured displacements ũ, with its derivatives,
+  ///
+  ///     u = ũ − K⁻¹ f(ũ) + Σ b_k ∂u/∂b_k,   K = ∂f/∂u at ũ
+  ///
+  /// Errors of ũ enter with their square. Read along one test function, −K⁻¹ f is the method of virtual fields with the
+  /// virtual field that reacts most (Marek et al., Comput. Mech. 60:409, 2017).
+  std::optional<std::string> step_once(bool by_parameters);
+  /// Prepares derivatives at the settled solution.
+  std::optional<std::string> linearise();
+
+  [[nodiscard]] const std::vector<double>& displacements() const { return u_; }  ///< by dof, mm
+  [[nodiscard]] const std::vector<double>& forces() const { return f_; }         ///< by dof, per thickness, kPa·mm
+  void by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) const;
+
+ private:
+  bool from_measured();
+  std::optional<std::string> along_the_way();
+  [[nodiscard]] const FieldRows::Step& step() const { return on_.rows().steps()[step_]; }
+  [[nodiscard]] Eigen::VectorXd rest(const std::vector<double>& u) const;
+
+  const Meshed& on_;
+  std::size_t step_;
+  Equilibrium& body_;
+  EdgeFit edges_;
+  Eigen::VectorXd measured_;
+  std::vector<double> u_, f_;
+};
+
+}  // namespace tunica::field
