@@ -29,6 +29,23 @@ bool alike(const Layout& a, const Layout& b) {
 
 }  // namespace
 
+std::optional<StandIn> stand_in(const experiment::TestEntry& test, const plugins::Catalogue& catalogue) {
+  const auto& costly = catalogue.tests().at(test.type);
+  const auto& factory = costly.factory;
+  auto found = factory.stand_in
+                   ? plugins::guarded(costly.plugin, "stand_in", [&] { return factory.stand_in(test.options); })
+                   : std::nullopt;
+  if (!found) return std::nullopt;
+  const auto on_shelf = catalogue.tests().find(found->type);
+  if (on_shelf == catalogue.tests().end())
+    throw InputError(
+        fmt::format("the test '{}' would be guided by a '{}', which no loaded plugin provides; leave \"guide\" "
+                    "out, or load that plugin",
+                    test.name, found->type));
+  found->options = completed(std::move(found->options), on_shelf->second.factory.options);
+  return found;
+}
+
 std::unique_ptr<Assembly> make_guide(const experiment::Experiment& experiment, const experiment::RunEntry& run,
                                      const std::string& label, const plugins::Catalogue& catalogue,
                                      const Assembly& full) {
@@ -36,20 +53,14 @@ std::unique_ptr<Assembly> make_guide(const experiment::Experiment& experiment, c
   experiment::Experiment cheaper = experiment;
   for (experiment::TestEntry& entry : cheaper.tests) {
     if (std::find(run.tests.begin(), run.tests.end(), entry.name) == run.tests.end()) continue;
-    const auto& costly = catalogue.tests().at(entry.type);
-    const auto& factory = costly.factory;
-    auto found = factory.stand_in
-                     ? plugins::guarded(costly.plugin, "stand_in", [&] { return factory.stand_in(entry.options); })
-                     : std::nullopt;
-    if (!found) continue;
-    const auto on_shelf = catalogue.tests().find(found->type);
-    if (on_shelf == catalogue.tests().end())
-      throw InputError(fmt::format(
-          "run {}: the test '{}' would be guided by a '{}', which no loaded plugin provides; leave \"guide\" "
-          "out, or load that plugin",
-          label, entry.name, found->type));
-    entry.type = found->type;
-    entry.options = completed(std::move(found->options), on_shelf->second.factory.options);
+    try {
+      auto found = stand_in(entry, catalogue);
+      if (!found) continue;
+      entry.type = found->type;
+      entry.options = std::move(found->options);
+    } catch (const InputError& problem) {
+      throw InputError(fmt::format("run {}: {}", label, problem.what()));
+    }
   }
   std::unique_ptr<Assembly> guide;
   try {

@@ -17,7 +17,7 @@ std::optional<Discovery> after(const diagnosis::Diagnosis& d, const experiment::
                                const plugins::Catalogue& catalogue, const diagnosis::Progress& progress) {
   const assembly::Assembly& base = *d.analysis.evidence.base;
   if (d.explanation.verdict != Verdict::unknown || !d.analysis.alarm.raised) return std::nullopt;
-  if (d.request.model.empty() || base.models().count() != 1 || base.layout().has_costly_tests) return std::nullopt;
+  if (d.request.model.empty() || base.models().count() != 1) return std::nullopt;
   if (!d.request.mechanisms.empty()) return std::nullopt;  // the catalogue was not asked
   if (!catalogue.models().contains("composed")) return std::nullopt;
   Request request = request_of(experiment);
@@ -27,9 +27,15 @@ std::optional<Discovery> after(const diagnosis::Diagnosis& d, const experiment::
   request.tolerance = d.request.tolerance;
   request.quick = d.request.quick;
   request.seed = d.request.seed;
+  const bool directions = !diagnosis::is_isotropic(base.models().model(0));
   const experiment::Experiment measured = experiment::measured_only(experiment);
-  const diagnosis::Inquiry inquiry{measured, d.request, catalogue, progress};
-  return discover_in(inquiry, d.analysis, request, !diagnosis::is_isotropic(base.models().model(0)));
+  if (!base.layout().has_costly_tests)
+    return discover_in({measured, d.request, catalogue, progress}, d.analysis, request, directions);
+  const StandIns stand_ins(measured, d.analysis.evidence.run, catalogue);
+  const experiment::Experiment cheaper = stand_ins.cheaper(measured);
+  if (assembly::Assembly(cheaper, d.analysis.evidence.run, catalogue).layout().has_costly_tests) return std::nullopt;
+  const diagnosis::Inquiry inquiry{cheaper, d.request, catalogue, progress};
+  return discover_in(inquiry, diagnosis::analyse(inquiry, d.analysis.evidence.gross), request, directions, stand_ins);
 }
 
 diagnosis::Diagnosis with_verdict_of(const Discovery& discovery, diagnosis::Diagnosis d) {

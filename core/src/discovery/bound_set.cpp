@@ -52,12 +52,23 @@ std::string joiner(const Subject& subject) { return subject.from_nothing ? "_" :
 
 }  // namespace
 
-experiment::Experiment with_first_term(experiment::Experiment experiment, const std::string& model) {
+std::vector<std::string> first_terms(bool changes_volume) {
+  if (changes_volume) return {"I1bar_linear", "J_quadratic"};
+  return {"I1_linear"};
+}
+
+experiment::Experiment with_first_terms(experiment::Experiment experiment, const std::string& model,
+                                        bool changes_volume) {
+  Json terms = Json::array();
+  for (const std::string& name : first_terms(changes_volume)) {
+    const auto line = name.find('_');
+    terms.push_back({{"name", name}, {"invariant", name.substr(0, line)}, {"law", name.substr(line + 1)}});
+  }
   for (auto& entry : experiment.models) {
     if (entry.name != model) continue;
     entry.type = "composed";
     entry.options = {};
-    entry.options.set("terms", Json::array({{{"name", "I1_linear"}, {"invariant", "I1"}, {"law", "linear"}}}).dump());
+    entry.options.set("terms", terms.dump());
     entry.parameters.clear();
     entry.mechanisms.clear();
   }

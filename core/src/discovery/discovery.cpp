@@ -6,7 +6,11 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "diagnosis/evidence/anisotropy.hpp"
+#include "diagnosis/hypotheses/volume.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/prospects/gain.hpp"
 #include "discovery/next.hpp"
@@ -19,6 +23,9 @@
 namespace tunica::discovery {
 namespace {
 
+// Of a field, where every evaluation takes tens of milliseconds.
+constexpr std::size_t narrow_beam = 4, narrow_exchange = 2;
+
 struct SpecimenSearch {
   std::shared_ptr<const Subject> subject;
   std::vector<SetFit> sets;  ///< likeliest first
@@ -27,17 +34,19 @@ struct SpecimenSearch {
 
 /// All sets of closed laws, and of curves where these say more.
 std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Request& request, const Fitter& fitter,
-                                  const std::vector<KindPointer>& kinds, const std::vector<CommonFit>& before) {
+                                  const std::vector<KindPointer>& kinds, const std::vector<CommonFit>& before,
+                                  bool narrow) {
   constexpr double worth_a_curve = 3;
   const auto is_clean = [&](const SetFit& fit) { return diagnosis::is_clean(p_of_rest(analysis, fit.fit)); };
   const CommonFitter one({&fitter}, {kinds}, request.from_nothing);
   std::vector<SetFit> sets;
-  for (CommonFit& fit : search(one, {request.term_limit(), request.most_parameters, &before},
-                               [&](const CommonFit& set) { return is_clean(set.specimens.front()); }))
+  Search how{request.term_limit(), request.most_parameters, &before};
+  if (narrow) how.beam = narrow_beam, how.exchanged = narrow_exchange;
+  for (CommonFit& fit : search(one, how, [&](const CommonFit& set) { return is_clean(set.specimens.front()); }))
     sets.push_back(std::move(fit.specimens.front()));
   const std::vector<std::string>& laws = request.laws;
   if (sets.empty() || !(laws.empty() || std::find(laws.begin(), laws.end(), "spline") != laws.end())) return sets;
-  if (request.most_parameters > 0) return sets;  // a curve has more
+  if (narrow || request.most_parameters > 0) return sets;  // a curve has more
   const bool room = sets.front().kinds.size() < request.term_limit();
   const double best = sets.front().log_evidence;
   for (SetFit& curve : with_curves(fitter, sets.front(), kinds, room && !is_clean(sets.front())))
@@ -50,19 +59,21 @@ std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Req
 /// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions.
 /// `before`: sets of a search with another noise.
 SpecimenSearch search_one(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis,
-                          const Request& request, bool has_directions, const std::vector<SetFit>& before) {
+                          const Request& request, bool has_directions, const std::vector<SetFit>& before, bool narrow) {
   const diagnosis::Evidence& evidence = analysis.evidence;
   auto subject = std::make_shared<const Subject>(
-      Subject{evidence.experiment, evidence.run, request.model, request.from_nothing, inquiry.catalogue});
+      Subject{evidence.experiment, evidence.run, request.model, request.from_nothing, inquiry.catalogue,
+              request.from_nothing && diagnosis::changes_volume(*evidence.base)});
   inquiry.report("what the data reach", 0.3);
   const States states = reached_states(*subject, evidence.fit.free);
-  const Fitter fitter(*subject, evidence);
+  Fitter fitter(*subject, evidence);
   const bool volume = sees_volume(*subject, evidence);
   std::vector<CommonFit> sets_before;
   for (const SetFit& set : before) sets_before.push_back({set.kinds, {set}, set.log_evidence});
   const auto over = [&](bool directions) {
-    return searched_over(analysis, request, fitter, scaled_kinds(fitter, kinds_of(request, states, directions, volume)),
-                         sets_before);
+    const auto kinds = scaled_kinds(fitter, kinds_of(request, states, directions, volume));
+    if (subject->changes_volume) fitter.begin_with(kinds);
+    return searched_over(analysis, request, fitter, kinds, sets_before, narrow);
   };
   inquiry.report("terms of the energy", 0.4);
   SpecimenSearch found{subject, over(has_directions)};
@@ -90,14 +101,32 @@ std::vector<diagnosis::HeldOut> gain_of(const diagnosis::Inquiry& inquiry, const
 
 }  // namespace
 
+namespace {
+
+/// The best set fitted with the tests themselves, from where the search with their stand-ins ended; none where it
+/// cannot be fitted.
+std::optional<SetFit> with_own_tests(const Discovery& found, const StandIns& stand_ins) {
+  Subject own = *found.subject;
+  own.experiment = stand_ins.restored(std::move(own.experiment));
+  SetFit fit = *found.best;
+  fit.set = std::make_shared<const BoundSet>(own, fit.kinds);
+  const assembly::Assembly& assembly = fit.set->assembly();
+  fit.fit = diagnosis::least_squares(assembly, diagnosis::all_variables(assembly), fit.fit.free,
+                                     *assembly.evaluator().make_workspace(), 30);
+  if (!fit.fit.status.ok()) return std::nullopt;
+  return fit;
+}
+
+}  // namespace
+
 Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis analysis, const Request& request,
-                      bool has_directions) {
-  SpecimenSearch searched = search_one(inquiry, analysis, request, has_directions, {});
+                      bool has_directions, const StandIns& stand_ins) {
+  SpecimenSearch searched = search_one(inquiry, analysis, request, has_directions, {}, !stand_ins.empty());
   // Noise that the residuals of the base said is asked once more of what the terms leave.
   if (!searched.sets.empty())
     if (auto again = diagnosis::restated(inquiry, analysis, searched.sets.front().fit)) {
       analysis = std::move(*again);
-      searched = search_one(inquiry, analysis, request, has_directions, searched.sets);
+      searched = search_one(inquiry, analysis, request, has_directions, searched.sets, !stand_ins.empty());
     }
   Discovery found{request, std::move(analysis), searched.subject};
   found.chi2_before = found.analysis.evidence.fit.chi2;
@@ -107,11 +136,21 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
   if (!request.from_nothing) found.rivals = rivals_of(inquiry, found.analysis);
   if (!searched.sets.empty()) {
     found.best = searched.sets.front();
+    if (!stand_ins.empty()) {
+      inquiry.report("the terms with the tests themselves", 0.9);
+      if (auto finished = with_own_tests(found, stand_ins)) found.best = std::move(*finished);
+    }
     found.chi2_after = found.best->chi2();
     found.p_after = p_of_rest(found.analysis, found.best->fit);
   }
   found.paths = path_dependence(found.analysis.evidence, found.best ? found.best->fit : found.analysis.evidence.fit);
   settle(found, searched.sets);
+  if (!stand_ins.empty() && found.best)
+    found.judgement.reasons.push_back(
+        {ReasonKind::searched_cheaper,
+         fmt::format(
+             "Terms were searched for with a cheaper method of {}, and the best of them fitted with the own one.",
+             fmt::join(stand_ins.names(), ", "))});
   if (!searched.anisotropy.empty())
     found.judgement.reasons.push_back({ReasonKind::anisotropy_seen, text::capitalised(searched.anisotropy) + "."});
   if (!found.terms.empty()) {
@@ -126,15 +165,17 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
 Discovery discover(const experiment::Experiment& experiment, const Request& request,
                    const plugins::Catalogue& catalogue, const diagnosis::Progress& progress) {
   check(request, catalogue);
-  check_volume(request, experiment, catalogue);
+  const experiment::RunEntry* const run = diagnosis::run_of_model(experiment, request.model);
+  const StandIns stand_ins = run == nullptr ? StandIns() : StandIns(experiment, *run, catalogue);
   const bool directions = has_directions(experiment, request.model, catalogue);
-  experiment::Experiment measured = experiment::measured_only(experiment);
-  if (request.from_nothing) measured = with_first_term(std::move(measured), request.model);
+  experiment::Experiment measured = stand_ins.cheaper(experiment::measured_only(experiment));
+  const bool volume = request.from_nothing && changes_volume(measured, request.model, catalogue);
+  if (request.from_nothing) measured = with_first_terms(std::move(measured), request.model, volume);
   const diagnosis::Request of_analysis = analysis_request(request);
   const diagnosis::Inquiry inquiry{measured, of_analysis, catalogue, progress};
   diagnosis::Analysis analysis = request.from_nothing ? diagnosis::analyse(inquiry, {}) : screened(inquiry);
   if (!request.from_nothing && !analysis.alarm.raised) return nothing_missing(request, std::move(analysis));
-  Discovery found = discover_in(inquiry, std::move(analysis), request, directions);
+  Discovery found = discover_in(inquiry, std::move(analysis), request, directions, stand_ins);
   found.warnings.insert(found.warnings.end(), found.analysis.evidence.warnings.begin(),
                         found.analysis.evidence.warnings.end());
   found.warnings.insert(found.warnings.end(), found.analysis.evidence.noise_warnings.begin(),

@@ -12,6 +12,7 @@
 #include "discovery/judgement.hpp"
 #include "discovery/request.hpp"
 #include "discovery/set_fit.hpp"
+#include "discovery/stand_ins.hpp"
 
 /// Which terms the energy lacks, or is made of, where no mechanism of the catalogue says it: docs/discovery.md.
 namespace tunica::discovery {
@@ -46,8 +47,9 @@ struct Discovery {
 Discovery discover(const experiment::Experiment& experiment, const Request& request,
                    const plugins::Catalogue& catalogue, const diagnosis::Progress& progress = {});
 
-/// The step that follows a diagnosis: what is searched in an analysis that there is.
+/// The step that follows a diagnosis: what is searched in an analysis that there is. Where that is one with stand-ins,
+/// what is found is fitted with the tests themselves.
 Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis analysis, const Request& request,
-                      bool has_directions);
+                      bool has_directions, const StandIns& stand_ins = {});
 
 }  // namespace tunica::discovery

@@ -118,6 +118,8 @@ const char* code_of(ReasonKind kind) {
       return "leads";
     case ReasonKind::same_model:
       return "same_model";
+    case ReasonKind::searched_cheaper:
+      return "searched_cheaper";
     case ReasonKind::no_term:
       break;
   }

@@ -29,7 +29,8 @@ enum class ReasonKind {
   specimens_left_over,
   anisotropy_seen,
   leads,
-  same_model
+  same_model,
+  searched_cheaper
 };
 const char* code_of(ReasonKind kind);
 

@@ -67,6 +67,8 @@ Reach reach_of(const std::string& words, const States& states) {
   if (words == "I1*I2") return reach_of_product(states, 1, 1);
   if (words == "I1^2*I2") return reach_of_product(states, 2, 1);
   if (words == "I1*I2^2") return reach_of_product(states, 1, 2);
+  if (words.starts_with("fibrebar"))
+    return reach_of("fibre" + words.substr(words.find(' ')), at_constant_volume(states));
   static const std::map<std::string, double> along_axes{{"fibre axial", 0}, {"fibre circumferential", 90}};
   if (const auto axis = along_axes.find(words); axis != along_axes.end()) return reach_of_fibre(states, axis->second);
   Reach widest;  // of a family whose angle is not known
@@ -94,8 +96,11 @@ std::string plain(const std::string& invariant) {
 
 /// Whether terms of this invariant are looked for where nobody asks.
 bool suits(const std::string& words, bool has_directions, bool sees_volume) {
+  if (words == "J" || words.find("bar") != std::string::npos) {
+    if (!sees_volume) return false;
+    if (words.starts_with("I") || words == "J") return true;
+  }
   if (words.starts_with("fibre")) return has_directions;
-  if (words == "J" || words.ends_with("bar")) return sees_volume;
   return words.find('*') == std::string::npos;
 }
 

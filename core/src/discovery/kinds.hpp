@@ -33,7 +33,7 @@ struct Kind {
   Reach reach = {};                       ///< of the invariant in the data
   double log_prior = 0;                   ///< ln of its share among all kinds
 
-  [[nodiscard]] bool isotropic() const { return invariant != "fibre"; }
+  [[nodiscard]] bool isotropic() const { return !invariant.starts_with("fibre"); }
   [[nodiscard]] bool of_volume() const { return invariant == "J"; }
   [[nodiscard]] bool is_product() const { return invariant.find('*') != std::string::npos; }
   /// Whether a free curve may stand in its place.

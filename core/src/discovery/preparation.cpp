@@ -50,25 +50,31 @@ bool has_directions(const experiment::Experiment& experiment, const std::string&
 
 namespace {
 
-bool changes_volume(const experiment::Experiment& experiment, const std::string& name,
-                    const plugins::Catalogue& catalogue) {
+bool changes_volume_by_itself(const experiment::Experiment& experiment, const std::string& name,
+                              const plugins::Catalogue& catalogue) {
   const experiment::ModelEntry& entry = experiment.model(name);
   return plugins::create(catalogue.models().at(entry.type), entry.options)->describe().compressible;
 }
 
 }  // namespace
 
+bool changes_volume(const experiment::Experiment& experiment, const std::string& name,
+                    const plugins::Catalogue& catalogue) {
+  const experiment::RunEntry* const run = diagnosis::run_of_model(experiment, name);
+  return run != nullptr && diagnosis::changes_volume(assembly::Assembly(experiment, *run, catalogue));
+}
+
 void check_volume(const Request& request, const experiment::Experiment& experiment,
                   const plugins::Catalogue& catalogue) {
   if (request.from_nothing && changes_volume(experiment, request.model, catalogue))
     throw InputError(fmt::format(
-        "discovery: from nothing, terms are of materials that keep their volume, and the model '{}' changes "
-        "it. Leave \"from_nothing\" out: terms are then looked for beside the model",
+        "discovery: from nothing, terms that several specimens have in common are of materials that keep their volume, "
+        "and the model '{}' changes it. Leave \"from_nothing\" out: terms are then looked for beside the model",
         request.model));
 }
 
 bool sees_volume(const Subject& subject, const diagnosis::Evidence& evidence) {
-  return changes_volume(subject.experiment, subject.model, subject.catalogue) &&
+  return changes_volume_by_itself(subject.experiment, subject.model, subject.catalogue) &&
          diagnosis::sees_volume(*evidence.base, evidence.experiment, subject.catalogue);
 }
 

@@ -22,7 +22,11 @@ diagnosis::Analysis screened(const diagnosis::Inquiry& inquiry);
 bool has_directions(const experiment::Experiment& experiment, const std::string& name,
                     const plugins::Catalogue& catalogue);
 
-/// Throws InputError where terms would have to be found from nothing for a model that changes its volume.
+/// Whether the material that the file describes changes its volume, by itself or by a mechanism.
+bool changes_volume(const experiment::Experiment& experiment, const std::string& name,
+                    const plugins::Catalogue& catalogue);
+
+/// Throws InputError where terms of several specimens would have to be found from nothing for such a material.
 void check_volume(const Request& request, const experiment::Experiment& experiment,
                   const plugins::Catalogue& catalogue);
 

@@ -16,10 +16,8 @@
 namespace tunica::discovery {
 namespace {
 
-constexpr std::size_t beam = 16;      ///< sets that larger ones grow from
-constexpr std::size_t exchanged = 6;  ///< sets in which terms make room for others
-constexpr std::size_t at_once = 16;   ///< fits between two looks at what is still worth one
-constexpr double tolerance = 10;      ///< of the evidence, behind the best so far
+constexpr std::size_t at_once = 16;  ///< fits between two looks at what is still worth one
+constexpr double tolerance = 10;     ///< of the evidence, behind the best so far
 
 using Key = std::vector<std::string>;
 
@@ -86,7 +84,7 @@ class Ledger {
     std::vector<CommonFit> smaller;
     std::set<Key> seen;
     std::vector<CommonFit> best = sorted();
-    if (best.size() > exchanged) best.resize(exchanged);
+    if (best.size() > request_.exchanged) best.resize(request_.exchanged);
     for (const CommonFit& fit : best)
       for (std::size_t out = 0; out < fit.kinds.size() && fit.kinds.size() > 1; ++out) {
         std::vector<KindPointer> rest = fit.kinds;
@@ -101,7 +99,7 @@ class Ledger {
   /// may hold nothing together, so that no smaller set leads there.
   void try_linear_laws() {
     std::vector<CommonFit> best = sorted();
-    if (best.size() > exchanged) best.resize(exchanged);
+    if (best.size() > request_.exchanged) best.resize(request_.exchanged);
     for (const CommonFit& fit : best)
       for (std::size_t k = 0; k < fit.kinds.size(); ++k) {
         if (fit.kinds[k]->invariant != "stretches") continue;
@@ -128,7 +126,7 @@ class Ledger {
     std::vector<Substitute> jobs;
     std::vector<CommonFit> best = sorted();
     const double worth = best.empty() ? -INFINITY : best.front().log_evidence - tolerance;
-    if (best.size() > exchanged) best.resize(exchanged);
+    if (best.size() > request_.exchanged) best.resize(request_.exchanged);
     for (const CommonFit& fit : best)
       for (const KindPointer& law : fitter_.kinds()) {
         const auto same = [&](const KindPointer& kind) { return kind->invariant_words() == law->invariant_words(); };
@@ -148,9 +146,30 @@ class Ledger {
     return found;
   }
 
+  /// The first terms of a material that changes its volume, and the best sets without one of their terms: these are no
+  /// sets that others grew from.
+  void begin_with(const CommonFit& root) { keep(key_of(root.kinds), root); }
+  void try_smaller() {
+    std::vector<CommonFit> best = sorted();
+    const double worth = best.empty() ? -INFINITY : best.front().log_evidence - tolerance;
+    if (best.size() > request_.exchanged) best.resize(request_.exchanged);
+    for (const CommonFit& fit : best)
+      for (std::size_t out = 0; out < fit.kinds.size(); ++out) {
+        Key key = key_of(fit.kinds);
+        key.erase(key.begin() + static_cast<std::ptrdiff_t>(out));
+        const auto of_volume = [&](bool is) {
+          return std::count_if(fit.kinds.begin(), fit.kinds.end(),
+                               [is](const KindPointer& kind) { return kind->of_volume() == is; });
+        };
+        if (of_volume(fit.kinds[out]->of_volume()) < 2 || all_.contains(key) || !tried_.insert(key).second) continue;
+        if (auto smaller = fitter_.without(fit, out, worth)) keep(key, std::move(*smaller));
+      }
+  }
+
   /// In the best sets each term makes room for every other kind.
   void exchange() {
     for (int round = 0; round < 2; ++round) {
+      if (!fitter_.root().kinds.empty()) try_smaller();
       try_linear_laws();
       const bool simpler = try_single_laws();
       if (grow(with_room(), 0).empty() && !simpler) break;
@@ -239,8 +258,10 @@ std::vector<CommonFit> search(const CommonFitter& fitter, const Search& request,
   constexpr std::size_t pairs = 2;
   Ledger ledger(fitter, request);
   std::vector<CommonFit> level{fitter.root()};
-  for (std::size_t size = 1; size <= request.most_terms && !level.empty(); ++size) {
-    const std::size_t most = size < pairs ? std::numeric_limits<std::size_t>::max() : beam;
+  const std::size_t first = fitter.root().kinds.size();
+  if (first > 0) ledger.begin_with(fitter.root());
+  for (std::size_t size = first + 1; size <= request.most_terms && !level.empty(); ++size) {
+    const std::size_t most = size < first + pairs ? std::numeric_limits<std::size_t>::max() : request.beam;
     std::vector<CommonFit> grown = ledger.grow(level, most);
     if (grown.empty()) break;
     const CommonFit best = ledger.sorted().front();

@@ -16,6 +16,8 @@ struct Search {
   std::size_t most_parameters = 0;  ///< 0 = no limit
   /// Of the same rows with another noise: fits begin where these ended.
   const std::vector<CommonFit>* before = nullptr;
+  std::size_t beam = 16;      ///< sets that larger ones grow from
+  std::size_t exchanged = 6;  ///< sets in which terms make room for others
 };
 
 /// Sets of terms that were fitted, likeliest first. All single terms are tried, and all pairs that promise enough: the

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "numerics/eigenpairs.hpp"
 #include "numerics/orthogonal.hpp"
 #include "tunica/error.hpp"
@@ -105,6 +108,43 @@ Fitter::Fitter(const Subject& subject, const diagnosis::Evidence& evidence) : su
   root_.log_evidence = log_evidence(root_);
 }
 
+void Fitter::begin_with(const std::vector<KindPointer>& kinds) {
+  std::vector<KindPointer> first;
+  for (const std::string& name : first_terms(subject_.changes_volume)) {
+    const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& one) { return one->name == name; });
+    if (kind == kinds.end())
+      throw InputError(fmt::format(
+          "discovery: from nothing, a material that changes its volume begins with the terms {}, and '{}' is not among "
+          "the invariants and laws that are asked for, or the data do not show it. Add it to the list",
+          fmt::join(first_terms(true), " and "), name));
+    first.push_back(*kind);
+  }
+  auto set = bound(std::move(first));
+  std::optional<SetFit> fit;
+  if (set) {
+    std::vector<double> start = start_of(root_, *set->set);
+    const auto& known = evidence_.base->layout().parameters;
+    for (std::size_t k = 0; k < known.size(); ++k)
+      start[index_of(set->set->assembly(), known[k].name)] = evidence_.fit.free[k];
+    fit = fitted(std::move(*set), start);
+  }
+  if (!fit)
+    throw InputError(
+        "discovery: from nothing, the first terms of a material that changes its volume could not be fitted to the "
+        "data. "
+        "Leave \"from_nothing\" out: terms are then looked for beside the model");
+  root_ = std::move(*fit);
+}
+
+std::optional<SetFit> Fitter::without(const SetFit& from, std::size_t out, double worth) const {
+  std::vector<KindPointer> kinds = from.kinds;
+  kinds.erase(kinds.begin() + static_cast<std::ptrdiff_t>(out));
+  auto found = bound(std::move(kinds));
+  if (!found) return std::nullopt;
+  const std::vector<double> start = start_of(from, *found->set);
+  return fitted(std::move(*found), start, worth);
+}
+
 double Fitter::log_evidence(const SetFit& fit) const {
   const double prior = log_prior(fit.kinds, subject_.from_nothing);
   if (!fit.set || fit.fit.jacobian.cols() == 0) return -fit.chi2() / 2 + prior;
@@ -141,11 +181,15 @@ double Fitter::largest_amplitude(const Kind& kind) const {
     // From nothing a term stands beside the neo-Hookean one of the analysis: fibres, and laws without a slope at rest,
     // hold nothing together alone.
     std::vector<KindPointer> kinds{std::make_shared<const Kind>(kind)};
-    if (subject_.from_nothing) kinds.push_back(std::make_shared<const Kind>(Kind{"I1", {}, "linear", "companion"}));
+    const bool by_volume = subject_.changes_volume;
+    if (subject_.from_nothing)
+      kinds.push_back(std::make_shared<const Kind>(Kind{by_volume ? "I1bar" : "I1", {}, "linear", "companion"}));
+    if (subject_.from_nothing && by_volume && !kind.of_volume())
+      kinds.push_back(std::make_shared<const Kind>(Kind{"J", {}, "quadratic", "volume"}));
     const BoundSet set(subject_, kinds);
     const auto workspace = set.assembly().evaluator().make_workspace();
     std::vector<double> start = start_of(root_, set);
-    if (kinds.size() > 1) start[set.terms().back().amplitude] = evidence_.fit.free.front();
+    for (std::size_t k = 1; k < kinds.size(); ++k) start[set.terms()[k].amplitude] = evidence_.fit.free[k - 1];
     double weakest = INFINITY;
     for (const auto& shapes : combinations(kind)) {
       const BoundTerm& term = set.terms().front();

@@ -47,8 +47,15 @@ class Fitter {
   /// `evidence`: of the base; from nothing of one neo-Hookean term.
   Fitter(const Subject& subject, const diagnosis::Evidence& evidence);
 
-  /// The base alone, or nothing: what every set grows from.
+  /// The base alone, or nothing: what every set grows from. After begin_with() the first terms of a material that
+  /// changes its volume, of which no single term holds a specimen together.
   [[nodiscard]] const SetFit& root() const { return root_; }
+  /// Before a search from nothing; `kinds` are those that are searched. Throws InputError where a first term is not
+  /// among them, or cannot be fitted.
+  void begin_with(const std::vector<KindPointer>& kinds);
+
+  /// The set without one of its terms, fitted again; none where it cannot be fitted.
+  [[nodiscard]] std::optional<SetFit> without(const SetFit& from, std::size_t out, double worth = -INFINITY) const;
 
   /// The set with one more kind and what a fit of it can come to; none where the term has nothing to do, and where no
   /// start can be evaluated.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
@@ -15,9 +16,15 @@ struct Subject {
   std::string model;          ///< the entry of "models" that gets the terms
   bool from_nothing = false;  ///< the terms take the place of the model
   const plugins::Catalogue& catalogue;
+  bool changes_volume = false;  ///< from nothing: sets grow from first_terms() of such a material
 };
 
-/// The experiment in which the model is made of one neo-Hookean term: what a search from nothing is analysed with.
-experiment::Experiment with_first_term(experiment::Experiment experiment, const std::string& model);
+/// The names of the kinds that a search from nothing is analysed with: a neo-Hookean term, and one of the volume where
+/// the material changes it.
+std::vector<std::string> first_terms(bool changes_volume);
+
+/// The experiment in which the model is made of these terms.
+experiment::Experiment with_first_terms(experiment::Experiment experiment, const std::string& model,
+                                        bool changes_volume);
 
 }  // namespace tunica::discovery

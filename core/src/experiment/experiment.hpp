@@ -164,6 +164,9 @@ inline const std::vector<std::string> discovery_invariants{"I1",
                                                            "I1*I2^2",
                                                            "I1bar",
                                                            "I2bar",
+                                                           "fibrebar axial",
+                                                           "fibrebar circumferential",
+                                                           "fibrebar diagonal",
                                                            "J"};
 
 /// How a term may grow, as "discovery" names it: the laws of `composed`.

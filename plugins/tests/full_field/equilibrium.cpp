@@ -103,6 +103,11 @@ bool Equilibrium::move_by(const std::vector<double>& change) {
   return evaluate(false, false);
 }
 
+void Equilibrium::return_to_linearised() {
+  F_ = linearised_F_;
+  membrane_.stress = linearised_stress_;
+}
+
 std::vector<double> Equilibrium::newton_step() const {
   std::vector<double> du(u_.size(), 0.0);
   add_free(-solve(f_), du);
@@ -117,6 +122,8 @@ bool Equilibrium::linearise(bool by_parameters) {
   const std::vector<double> normal = membrane_.normal;
   const bool evaluated = evaluate(true, by_parameters);
   membrane_.normal = normal;
+  linearised_F_ = F_;
+  linearised_stress_ = membrane_.stress;
   return evaluated && factor(std::vector<double>(u_.size(), 0.0));
 }
 

@@ -31,6 +31,8 @@ class Equilibrium {
   void begin(State state);
   /// Moves by a change of all displacements; false where the material has no answer there.
   bool move_by(const std::vector<double>& change);
+  /// To where linearise() was called, for its derivatives.
+  void return_to_linearised();
   /// −K⁻¹ f by dof, 0 where held, with the stiffness of the last linearise() and the forces of where it is.
   [[nodiscard]] std::vector<double> newton_step() const;
   /// Adds the change of forces with one of displacements, both by dof, after linearise().
@@ -60,7 +62,8 @@ class Equilibrium {
   const Specimen& specimen_;
   plane::Membrane membrane_;
   std::vector<double> u_, f_, by_direction_;
-  std::vector<plane::Gradient> F_;
+  std::vector<plane::Gradient> F_, linearised_F_;
+  std::vector<double> linearised_stress_;
   Eigen::SparseMatrix<double> K_;
   Factor factor_;
   bool analysed_ = false;

@@ -44,7 +44,10 @@ Meshed::Meshed(const FieldRows& rows, const Edges& edges, std::size_t smoothing,
   }
   for (const FieldRows::Step& step : rows_.steps())
     beginnings_.push_back(field::beginning(specimen_, edges, step.frame, std::min(smoothing, most_to_begin)));
-  starts_ = starts(specimen_, rows_, places_, modes_);
+}
+
+void Meshed::smooth(const std::vector<std::vector<double>>& reference) {
+  starts_ = starts(specimen_, rows_, places_, modes_, reference);
 }
 
 void Meshed::refuse_unseen_sides() const {

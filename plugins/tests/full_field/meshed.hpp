@@ -22,6 +22,7 @@ class Meshed {
   [[nodiscard]] const std::vector<Mode>& modes() const { return modes_; }  ///< in which edges may move
   [[nodiscard]] const FieldRows& rows() const { return rows_; }
   /// The smoothed measured displacements of a step, by dof.
+  [[nodiscard]] bool has_starts() const { return !starts_.empty(); }
   [[nodiscard]] const std::vector<double>& start(std::size_t step) const { return starts_[step]; }
   /// Where the edges of a step begin, by dof.
   [[nodiscard]] const std::vector<double>& beginning(std::size_t step) const { return beginnings_[step]; }
@@ -31,6 +32,9 @@ class Meshed {
   /// nothing to read. `thickness` in mm.
   void read(const FieldRows::Step& step, const std::vector<double>& u, const std::vector<double>& f, double thickness,
             std::span<double> values) const;
+
+  /// Smooths the measured displacements, once; `reference` is what they are about, by step and dof, or empty.
+  void smooth(const std::vector<std::vector<double>>& reference);
 
   /// Throws InputError where a side lies far from the points of a step: a mesh that reaches beyond the specimen takes
   /// the load of what is not there.

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "reference.hpp"
 #include "settings.hpp"
 
 namespace tunica::field {
@@ -21,7 +22,8 @@ void append(std::string& key, std::span<const double> values) {
 /// All that Prepared is made from.
 std::string key_of(const TestSetup& setup) {
   std::string key = setup.folder + '\n';
-  for (const char* option : {"mesh", "shape", "boundary", "unseen_sides"}) append(key, setup.options.text(option));
+  for (const char* option : {"mesh", "shape", "boundary", "unseen_sides", "state"})
+    append(key, setup.options.text(option));
   append(key, std::to_string(setup.options.count("smoothing")));
   for (const auto& column : setup.rows.abscissae) {
     append(key, column.observable);
@@ -39,6 +41,7 @@ Prepared::Prepared(const TestSetup& setup)
       smoothing(setup.options.count("smoothing")),
       rows(setup, edges),
       mesh(rows, edges, smoothing, mesh_of(setup)) {
+  mesh.smooth(reference_fields(mesh, setup.options.text("state") == "plane_strain"));
   if (setup.options.text("unseen_sides") == "refuse") mesh.refuse_unseen_sides();
   mesh.refuse_forces(edges);
 }

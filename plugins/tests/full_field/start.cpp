@@ -43,9 +43,14 @@ Eigen::MatrixXd columns(const std::vector<Reading>& readings) {
   Eigen::MatrixXd all(static_cast<Eigen::Index>(readings.front().values.size()),
                       static_cast<Eigen::Index>(readings.size()));
   for (std::size_t r = 0; r < readings.size(); ++r)
-    all.col(static_cast<Eigen::Index>(r)) =
-        Eigen::Map<const Eigen::VectorXd>(readings[r].values.data(), all.rows());
+    all.col(static_cast<Eigen::Index>(r)) = Eigen::Map<const Eigen::VectorXd>(readings[r].values.data(), all.rows());
   return all;
+}
+
+double at_place(const Place& place, std::size_t component, const std::vector<double>& u) {
+  double value = 0;
+  for (std::size_t a = 0; a < 6; ++a) value += place.weights[a] * u[2 * place.nodes[a] + component];
+  return value;
 }
 
 /// Displacements of held dofs as the nearest sum of modes.
@@ -77,19 +82,25 @@ class HeldEdges {
 }  // namespace
 
 std::vector<std::vector<double>> starts(const Specimen& specimen, const FieldRows& rows,
-                                        const std::vector<Place>& places, const std::vector<Mode>& modes) {
-  std::vector<std::vector<double>> all(rows.steps().size(), std::vector<double>(specimen.dofs(), 0.0));
+                                        const std::vector<Place>& places, const std::vector<Mode>& modes,
+                                        const std::vector<std::vector<double>>& reference) {
+  std::vector<std::vector<double>> all = reference;
+  all.resize(rows.steps().size(), std::vector<double>(specimen.dofs(), 0.0));
   const Smoothing smoothing(specimen);
   double wavelength = 0;
   for (const auto& [points, of_points] : readings(rows)) {
     std::vector<Place> at;
     for (const std::size_t point : points) at.push_back(places[point]);
-    const Eigen::MatrixXd values = columns(of_points);
+    Eigen::MatrixXd values = columns(of_points);
+    for (std::size_t r = 0; r < of_points.size(); ++r)
+      for (std::size_t k = 0; k < at.size(); ++k)
+        values(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(r)) -=
+            at_place(at[k], of_points[r].component, all[of_points[r].step]);
     if (wavelength == 0) wavelength = smoothing.wavelength(at, values.col(values.cols() - 1));
     const Eigen::MatrixXd smooth = smoothing.at_nodes(at, values, wavelength);
     for (std::size_t r = 0; r < of_points.size(); ++r)
       for (Eigen::Index node = 0; node < smooth.rows(); ++node)
-        all[of_points[r].step][2 * static_cast<std::size_t>(node) + of_points[r].component] =
+        all[of_points[r].step][2 * static_cast<std::size_t>(node) + of_points[r].component] +=
             smooth(node, static_cast<Eigen::Index>(r));
   }
   const HeldEdges edges(specimen, modes);

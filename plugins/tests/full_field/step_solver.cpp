@@ -13,8 +13,8 @@ constexpr const char* not_found =
     "the edges that fit the points best were not found; narrow the bounds of the model's parameters";
 // Of the size of the specimen: chords shrink by a fifth or faster, and edges alone by far more.
 constexpr double precise_step = 1e-11, precise_edge = 1e-9;
-constexpr double same_place = 1e-2;  ///< of the displacements
-constexpr double near = 0.1;      ///< of the displacements: what Newton's method may have to move from the measured ones
+constexpr double same_place = 1e-6;  ///< of the displacements
+constexpr double near = 0.1;  ///< of the displacements: what Newton's method may have to move from the measured ones
 
 double largest(const std::vector<double>& of) {
   double most = 0;
@@ -35,36 +35,53 @@ StepSolver::StepSolver(const Meshed& on, std::size_t step, Equilibrium& body)
 
 Eigen::VectorXd StepSolver::rest(const std::vector<double>& u) const { return measured_ - on_.at_points(step(), u); }
 
-std::optional<std::string> StepSolver::settle() {
+std::optional<std::string> StepSolver::settle(bool by_parameters) {
   const Equilibrium::State before = body_.state();
-  if (!from_measured()) {
+  const bool near_by = from_measured(by_parameters);
+  if (!near_by) {
     body_.begin(before);
     if (auto problem = along_the_way()) return problem;
   }
   u_ = body_.displacements();
   f_ = body_.forces();
+  if (near_by) {
+    body_.return_to_linearised();
+  } else if (by_parameters) {
+    if (!body_.linearise(true)) return singular;
+    edges_.linearise(body_);
+  }
   return {};
 }
 
-/// Newton's method on the inside and the edges at once, several steps a factor as long as they shrink.
-bool StepSolver::from_measured() {
+/// −K⁻¹ f on the inside, and the change of the edges that then fits the points best.
+StepSolver::Change StepSolver::next() const {
+  Change change{body_.newton_step(), std::vector<double>(body_.displacements().size(), 0.0)};
+  std::vector<double> u = body_.displacements();
+  for (std::size_t dof = 0; dof < u.size(); ++dof) u[dof] += change.u[dof];
+  body_.add_force_change(change.u, change.f);
+  edges_.add(edges_.solve(rest(u)), change.u, change.f);
+  return change;
+}
+
+/// Newton's method on the inside and the edges at once, several steps a factor as long as they shrink. The last factor
+/// is that of the solution, so that it has the derivatives too.
+bool StepSolver::from_measured(bool by_parameters) {
   constexpr int rounds = 6, chords = 8;
+  if (!on_.has_starts()) return false;
   body_.begin({on_.start(step_), {}});
   double before = near * largest(body_.displacements());
   for (int round = 0; round < rounds; ++round) {
-    if (!body_.linearise(false)) return false;
+    if (!body_.linearise(by_parameters && round > 0)) return false;
     edges_.linearise(body_);
     double moved = 0;
     for (int chord = 0; chord < chords; ++chord) {
-      std::vector<double> du = body_.newton_step(), df(du.size(), 0.0), u = body_.displacements();
-      for (std::size_t dof = 0; dof < u.size(); ++dof) u[dof] += du[dof];
-      edges_.add(edges_.solve(rest(u)), du, df);
-      const double step = largest(du);
-      if (!std::isfinite(step) || (chord == 0 && step > before) || !body_.move_by(du)) return false;
+      const Change change = next();
+      const double step = largest(change.u);
+      if (!std::isfinite(step) || (chord == 0 && step > before) || !body_.move_by(change.u)) return false;
       moved += step;
       if (step < precise_step * size(on_.specimen())) {
         // The edges fit best in the metric of their responses, so these have to be those of the solution.
-        if (moved < same_place * largest(body_.displacements())) return true;
+        if (round > 0 && moved < same_place * largest(body_.displacements())) return true;
         break;
       }
       const bool slow = chord > 0 && step > 0.2 * before;
@@ -94,29 +111,31 @@ std::optional<std::string> StepSolver::along_the_way() {
   return not_found;
 }
 
-std::optional<std::string> StepSolver::step_once(bool by_parameters) {
+/// Steps stop where they no longer shrink. Where the first leads to no state of the material, it is taken as linear.
+std::optional<std::string> StepSolver::few_steps(bool by_parameters) {
+  constexpr int steps = 4;
+  constexpr double shrinks = 0.5;
   body_.begin({on_.start(step_), {}});
   if (!body_.linearise(by_parameters)) return singular;
   edges_.linearise(body_);
-  std::vector<double> du = body_.newton_step();
   u_ = body_.displacements();
   f_ = body_.forces();
-  std::vector<double> df(u_.size(), 0.0), moved = u_;
-  body_.add_force_change(du, df);
-  for (std::size_t dof = 0; dof < u_.size(); ++dof) moved[dof] += du[dof];
-  const Eigen::VectorXd change = edges_.solve(rest(moved));
-  if (!change.allFinite()) return no_edges;
-  edges_.add(change, du, df);
-  for (std::size_t dof = 0; dof < u_.size(); ++dof) {
-    u_[dof] += du[dof];
-    f_[dof] += df[dof];
+  double before = 1e300;
+  for (int k = 0; k < steps; ++k) {
+    const Change change = next();
+    const double step = largest(change.u);
+    if (!std::isfinite(step)) return no_edges;
+    if (step > shrinks * before) break;
+    before = step;
+    const bool moved = body_.move_by(change.u);
+    if (k > 0 && !moved) break;
+    for (std::size_t dof = 0; dof < u_.size(); ++dof) {
+      u_[dof] += change.u[dof];
+      f_[dof] = moved ? body_.forces()[dof] : f_[dof] + change.f[dof];
+    }
+    if (!moved) break;
   }
-  return {};
-}
-
-std::optional<std::string> StepSolver::linearise() {
-  if (!body_.linearise(true)) return singular;
-  edges_.linearise(body_);
+  body_.return_to_linearised();
   return {};
 }
 

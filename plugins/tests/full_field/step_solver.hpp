@@ -18,26 +18,28 @@ class StepSolver {
   /// Keeps `on` and `body` by reference; `step` counts from 0.
   StepSolver(const Meshed& on, std::size_t step, Equilibrium& body);
 
-  /// Finite elements: the equilibrium itself, from the measured displacements, and where that fails along the way from
+  /// Finite elements: the equilibrium itself with its derivatives, from the measured displacements, and where that fails along the way from
   /// the step before. Empty where it is found, else what went wrong.
-  std::optional<std::string> settle();
-  /// One step of Newton's method from the smoothed measured displacements ũ, with its derivatives,
+  std::optional<std::string> settle(bool by_parameters);
+  /// The same from where the body is, along the way; moves the body only.
+  std::optional<std::string> along_the_way();
+  /// The modified Newton method: at most four steps from the smoothed measured displacements ũ with one stiffness,
   ///
-  ///     u = ũ − K⁻¹ f(ũ) + Σ b_k ∂u/∂b_k,   K = ∂f/∂u at ũ
+  ///     u ← u − K⁻¹ f(u) + Σ b_k ∂u/∂b_k,   K = ∂f/∂u at ũ,   b from the points,
   ///
-  /// Errors of ũ enter with their square. Read along one test function, −K⁻¹ f is the method of virtual fields with the
-  /// virtual field that reacts most (Marek et al., Comput. Mech. 60:409, 2017).
-  std::optional<std::string> step_once(bool by_parameters);
-  /// Prepares derivatives at the settled solution.
-  std::optional<std::string> linearise();
+  /// and derivatives at ũ. Errors of ũ enter with their fifth power where they are small.
+  std::optional<std::string> few_steps(bool by_parameters);
 
   [[nodiscard]] const std::vector<double>& displacements() const { return u_; }  ///< by dof, mm
   [[nodiscard]] const std::vector<double>& forces() const { return f_; }         ///< by dof, per thickness, kPa·mm
   void by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) const;
 
  private:
-  bool from_measured();
-  std::optional<std::string> along_the_way();
+  struct Change {
+    std::vector<double> u, f;  ///< by dof
+  };
+  [[nodiscard]] Change next() const;
+  bool from_measured(bool by_parameters);
   [[nodiscard]] const FieldRows::Step& step() const { return on_.rows().steps()[step_]; }
   [[nodiscard]] Eigen::VectorXd rest(const std::vector<double>& u) const;
 

@@ -69,6 +69,7 @@ CommonFitter::CommonFitter(std::vector<const Fitter*> fitters, const std::vector
     }
   std::erase_if(kinds_, [&](const KindPointer& kind) { return 2 * seen[kind->name] < fitters_.size(); });
   for (const Fitter* fitter : fitters_) root_.specimens.push_back(fitter->root());
+  root_.kinds = fitters_.front()->root().kinds;
   std::vector<std::size_t> all(fitters_.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   root_.log_evidence = log_evidence(root_, all);
@@ -165,6 +166,14 @@ std::optional<CommonFit> CommonFitter::with_linear(const CommonFit& from, std::s
     simpler.specimens.push_back(std::move(*with));
   }
   return weighed(std::move(simpler));
+}
+
+std::optional<CommonFit> CommonFitter::without(const CommonFit& from, std::size_t out, double worth) const {
+  if (fitters_.size() > 1) return std::nullopt;
+  auto fit = fitters_.front()->without(from.specimens.front(), out, worth);
+  if (!fit) return std::nullopt;
+  CommonFit smaller{fit->kinds, {*fit}};
+  return weighed(std::move(smaller));
 }
 
 std::optional<CommonFit> CommonFitter::distilled(const CommonFit& from, const KindPointer& law, double worth) const {

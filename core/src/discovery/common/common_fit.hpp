@@ -54,6 +54,8 @@ class CommonFitter {
   /// As Fitter::with_linear.
   [[nodiscard]] std::optional<CommonFit> with_linear(const CommonFit& from, std::size_t out,
                                                      const KindPointer& linear) const;
+  /// As Fitter::without; of one specimen only.
+  [[nodiscard]] std::optional<CommonFit> without(const CommonFit& from, std::size_t out, double worth) const;
   /// As Fitter::distilled.
   [[nodiscard]] std::optional<CommonFit> distilled(const CommonFit& from, const KindPointer& law,
                                                    double worth = -INFINITY) const;
