@@ -195,6 +195,8 @@ double Fitter::largest_amplitude(const Kind& kind) const {
       const BoundTerm& term = set.terms().front();
       const auto& parameter = set.assembly().layout().parameters[term.amplitude];
       start[term.amplitude] = kind.negative ? -1e-4 : std::max(parameter.min, subject_.from_nothing ? 1e-3 : 0.0);
+      // Nothing else resists the volume.
+      if (by_volume && kind.of_volume()) start[term.amplitude] = evidence_.fit.free.back();
       for (std::size_t k = 0; k < shapes.size(); ++k) start[term.shapes[k]] = shapes[k];
       Eigen::VectorXd r;
       Eigen::MatrixXd J;

@@ -31,6 +31,8 @@ class Equilibrium {
   void begin(State state);
   /// Moves by a change of all displacements; false where the material has no answer there.
   bool move_by(const std::vector<double>& change);
+  /// Prepares derivatives by parameters where it is, with the stiffness of the last linearise().
+  bool stay_with_parameters() { return evaluate(false, true); }
   /// To where linearise() was called, for its derivatives.
   void return_to_linearised();
   /// −K⁻¹ f by dof, 0 where held, with the stiffness of the last linearise() and the forces of where it is.

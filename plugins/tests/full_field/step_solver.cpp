@@ -116,7 +116,7 @@ std::optional<std::string> StepSolver::few_steps(bool by_parameters) {
   constexpr int steps = 4;
   constexpr double shrinks = 0.5;
   body_.begin({on_.start(step_), {}});
-  if (!body_.linearise(by_parameters)) return singular;
+  if (!body_.linearise(false)) return singular;
   edges_.linearise(body_);
   u_ = body_.displacements();
   f_ = body_.forces();
@@ -135,7 +135,7 @@ std::optional<std::string> StepSolver::few_steps(bool by_parameters) {
     }
     if (!moved) break;
   }
-  body_.return_to_linearised();
+  if (by_parameters && !body_.stay_with_parameters()) return singular;
   return {};
 }
 

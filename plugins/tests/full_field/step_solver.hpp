@@ -18,8 +18,8 @@ class StepSolver {
   /// Keeps `on` and `body` by reference; `step` counts from 0.
   StepSolver(const Meshed& on, std::size_t step, Equilibrium& body);
 
-  /// Finite elements: the equilibrium itself with its derivatives, from the measured displacements, and where that fails along the way from
-  /// the step before. Empty where it is found, else what went wrong.
+  /// Finite elements: the equilibrium itself with its derivatives, from the measured displacements, and where that
+  /// fails along the way from the step before. Empty where it is found, else what went wrong.
   std::optional<std::string> settle(bool by_parameters);
   /// The same from where the body is, along the way; moves the body only.
   std::optional<std::string> along_the_way();
@@ -27,7 +27,7 @@ class StepSolver {
   ///
   ///     u ← u − K⁻¹ f(u) + Σ b_k ∂u/∂b_k,   K = ∂f/∂u at ũ,   b from the points,
   ///
-  /// and derivatives at ũ. Errors of ũ enter with their fifth power where they are small.
+  /// and derivatives with that stiffness. Errors of ũ enter with their fifth power where they are small.
   std::optional<std::string> few_steps(bool by_parameters);
 
   [[nodiscard]] const std::vector<double>& displacements() const { return u_; }  ///< by dof, mm
