@@ -26,8 +26,10 @@ function(tunica_add_plugin name)
     return()  # not installed, nor beside those that are
   endif()
   if(TARGET plugin_headers)
-    # No <name>_EXPORTS on the command line: nothing reads it, and it would keep plugins from sharing the header.
+    # The same definitions on every command line, or plugins could not share the header: no <name>_EXPORTS, which nothing
+    # reads, and what fmt asks for.
     set_target_properties(${name} PROPERTIES DEFINE_SYMBOL "")
+    target_compile_definitions(${name} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
     target_precompile_headers(${name} REUSE_FROM plugin_headers)
   endif()
   if(TUNICA_PLUGIN_OUTPUT_DIRECTORY)

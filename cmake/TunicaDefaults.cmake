@@ -50,13 +50,21 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
                                   ${CCACHE_PROGRAM})
 endif()
 
+if(TUNICA_PRECOMPILED_HEADERS AND NOT CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
+  set(TUNICA_COLD_BUILD TRUE)  # every file is compiled, so that it pays to spend memory on it
+endif()
+# g++ collects its garbage from 128 MiB on. With 2 GiB hardly a file of this project gets there, for up to 1.8 GiB a job.
+if(TUNICA_COLD_BUILD)
+  add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=2097152>)
+endif()
+
 # tunica_precompiled_headers(NAME TYPE HEADERS ... LIBRARIES ... OPTIONS ...): headers that many targets include, compiled once
 # for all targets that are compiled like it; TYPE is LIBRARY or PROGRAM. Such a target takes them by
 # tunica_use_precompiled_headers(TARGET NAME). A cache of compiled files does better without: to it they are new with every
 # build, and so is whatever was compiled with them.
 function(tunica_precompiled_headers name type)
   cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES;OPTIONS" ${ARGN})
-  if(NOT TUNICA_PRECOMPILED_HEADERS OR CCACHE_PROGRAM OR CMAKE_CXX_COMPILER_LAUNCHER)
+  if(NOT TUNICA_COLD_BUILD)
     return()
   endif()
   file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "// Carries a precompiled header; nothing is linked from here.\n")

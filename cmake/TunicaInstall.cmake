@@ -37,9 +37,11 @@ install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime
         PATTERN "build" EXCLUDE PATTERN "results" EXCLUDE PATTERN "out" EXCLUDE)
 install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime FILES_MATCHING PATTERN "*.json")
 
-# What a user runs, without tests and benchmarks: ./bootstrap run builds no more.
+# What a user runs, without tests and benchmarks. ./bootstrap run builds `first_result` before it and `product` after it.
 get_property(plugins GLOBAL PROPERTY TUNICA_PLUGINS)
+add_custom_target(first_result DEPENDS ${plugins})
 add_custom_target(product DEPENDS ${plugins})
 if(TARGET tunica)
+  add_dependencies(first_result tunica_first)
   add_dependencies(product tunica shell_files)
 endif()

@@ -22,7 +22,7 @@ endif()
 find_program(RUN_CLANG_TIDY NAMES run-clang-tidy-14 run-clang-tidy)
 if(RUN_CLANG_TIDY)
   # clang does not know these options of g++; it would refuse every file for them.
-  set(foreign_options -e "s/ -fno-gnu-unique//g" -e "s/ -Wno-restrict//g")
+  set(foreign_options -e "s/ -fno-gnu-unique//g" -e "s/ -Wno-restrict//g" -e "s/ --param=ggc[^ ]*//g")
   # In a unity build, joined files are read, which takes an eighth of the time; they include sources, as they should.
   set(sources "/(core|plugins|apps)/.*\\.(cpp|cxx|hpp)$")
   add_custom_target(lint

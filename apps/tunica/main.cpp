@@ -99,13 +99,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(examples);
-  for (const auto add :
-       {add_run, add_diagnose, add_discover, add_cohort, add_report, add_export, add_certify, add_import, add_check,
-        add_simulate, add_stability, add_list, add_describe, add_schema, add_plugin, add_completion, add_man})
-    add(app, global, action);
-#ifdef TUNICA_SERVES
-  add_serve(app, global, action);
-#endif
+  add_verbs(app, global, action);
   check_verb(app, argc, argv);
   try {
     app.parse(argc, argv);

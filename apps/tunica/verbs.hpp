@@ -28,6 +28,9 @@ inline CLI::Validator seed_number() {
           ""};
 }
 
+/// Adds the verbs of this program: all of them (all_verbs.cpp), or those that a first result needs (first_verbs.cpp).
+void add_verbs(CLI::App& app, GlobalOptions& global, Action& action);
+
 void add_run(CLI::App& app, GlobalOptions& global, Action& action);
 void add_cohort(CLI::App& app, GlobalOptions& global, Action& action);
 void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action);

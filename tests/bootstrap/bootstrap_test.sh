@@ -25,8 +25,8 @@ pretend apt-get <<<'echo "apt-get $*" >>"$CALLS"'
 pretend cmake <<<'echo "cmake $*" >>"$CALLS"'
 pretend ctest <<<'printf "%s\n" "$CTEST_OUTPUT" "" "The following tests did not run:" "1 - x (Skipped)"; exit $CTEST_STATUS'
 pretend sudo <<<'exec "$@"'
-install -m 755 /dev/stdin "$here/build/release/bin/tunica" <<<'#!/bin/sh
-echo "tunica $*"; exit 3'
+install -m 755 /dev/stdin "$here/build/release/bin/tunica_first" <<<'#!/bin/sh
+echo "tunica $*" | tee -a "$CALLS"; exit "${RUN_STATUS:-3}"'
 export PATH="$here/bin:$PATH"
 
 fail() {
@@ -93,6 +93,14 @@ case $2 in
     output_has "tunica run $here/mine.json -j 2"
     expect 3 "$here/bootstrap" run --seed 7
     output_has "tunica run $here/examples/lamb_aorta/experiment.json --seed 7"
+    ;;
+  builds_what_a_first_result_needs_before_it_and_the_rest_after_it)
+    expect 3 "$here/bootstrap" run
+    grep -oE -- "--target .*|^tunica run" "$CALLS" >"$here/order"
+    diff - "$here/order" <<<$'--target first_result\ntunica run\n--target product' || fail "another order"
+    output_has "now building the rest"
+    : >"$CALLS" && RUN_STATUS=130 expect 130 "$here/bootstrap" run
+    ! grep -q "target product" "$CALLS" || fail "went on to build after Ctrl-C"
     ;;
   refuses_a_missing_experiment_and_an_unknown_command)
     expect 2 "$here/bootstrap" run nowhere.json
