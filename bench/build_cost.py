@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a cold build costs: core-seconds of what `./bootstrap run` builds and of everything, the most expensive files and
-headers.
+"""What a cold build costs: core-seconds of what a first result needs, of the program and of everything, the most expensive
+files and headers.
 
-    bench/build_cost.py                        this checkout
-    bench/build_cost.py --against OLD          and another checkout in the same run, with the ratio of the two
-    bench/build_cost.py --target product -j 1  only what a run needs, one job
+    bench/build_cost.py                             this checkout
+    bench/build_cost.py --against OLD               and another checkout in the same run, with the ratio of the two
+    bench/build_cost.py --target first_result -j 1  only what `./bootstrap run` builds before its result, one job
+    bench/build_cost.py --target first_result --hold bench/build_cost.json
+                                                    fails where it costs 10 % more than is written down there
 
-Every build starts from an empty folder and without a compiler cache. A core-second is a second of processor time in user
-mode, of the compilers and of everything else that the build starts. CMake's own configuration is not counted.
+Every build starts from an empty folder and as on a fresh machine: without a compiler cache, with precompiled headers. A
+core-second is a second of processor time in user mode, of the compilers and of everything else that the build starts.
+CMake's own configuration is not counted. Machines differ, and so does one machine beside other work. So each figure is
+also given in compilations of bench/build_reference.cpp before and after the build; --hold compares this ratio.
 """
 import argparse
 import collections
@@ -24,6 +28,8 @@ import time
 
 HERE = pathlib.Path(__file__).resolve()
 SHOWN = 5
+ALLOWED = 1.1  # a build that costs more than this share of what is written down is not held
+TARGETS = {"first_result": "what a first result needs", "product": "the program and its plugins", "all": "everything"}
 SYSTEM_INCLUDE = re.compile(r"^#include <((?:nlohmann|CLI|Eigen|boost|tbb|fmt|spdlog|valijson|ceres|pagmo|nlopt|gtest|gmock)"
                             r"[^>]*)>", re.M)
 
@@ -33,7 +39,8 @@ def used():
 
 
 def compile_one(record, command):
-    """Stands before the compiler in a build: runs it and writes what it cost."""
+    """Is the compiler of a build: runs c++ and writes what it cost."""
+    command = ["c++", *command]
     status = subprocess.run(command).returncode
     source = next((word for word in command if word.endswith((".cpp", ".cxx", ".c"))), "?")
     with open(record, "a") as file:
@@ -44,11 +51,14 @@ def compile_one(record, command):
 def build(checkout, target, jobs, folder):
     """Configures and builds in an empty folder; returns core-seconds, seconds and the cost of each file."""
     environment = dict(os.environ, CCACHE_DISABLE="1")
-    record = folder / "record.tsv"
-    record.touch()
-    launcher = f"{sys.executable};{HERE};--compile;{record}"
-    configure = ["cmake", "--preset", "release", "-B", str(folder / "build"), f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}"]
+    record, compiler = folder / "record.tsv", folder / "c++"
+    compiler.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{HERE}" --compile "{record}" "$@"\n')
+    compiler.chmod(0o755)
+    # An empty name is one that CMake does not look for.
+    configure = ["cmake", "--preset", "release", "-B", str(folder / "build"), f"-DCMAKE_CXX_COMPILER={compiler}",
+                 "-DCCACHE_PROGRAM="]
     subprocess.run(configure, cwd=checkout, env=environment, check=True, stdout=subprocess.DEVNULL)
+    record.write_text("")
     before, start = used(), time.monotonic()
     command = ["cmake", "--build", str(folder / "build"), "-j", str(jobs), "--target", target]
     with open(folder / "log", "w") as log:
@@ -87,28 +97,51 @@ def header_costs(checkout):
     return sorted(costs, reverse=True)
 
 
+def reference():
+    """Core-seconds to compile bench/build_reference.cpp, which is no part of the project."""
+    before = used()
+    subprocess.run(["c++", "-std=c++20", "-O2", "-I/usr/include/eigen3", "-c", str(HERE.parent / "build_reference.cpp"),
+                    "-o", os.devnull], check=True)
+    return used() - before
+
+
 def measure(checkout, target, jobs):
+    """What build() returns, and the mean cost of the reference before and after it."""
     with tempfile.TemporaryDirectory(prefix="tunica-build-") as folder:
-        return build(checkout, target, jobs, pathlib.Path(folder))
+        before = reference()
+        found = build(checkout, target, jobs, pathlib.Path(folder))
+        return *found, (before + reference()) / 2
+
+
+def held(target, ratio, file):
+    """Whether the ratio is at most 10 % over the one that was written down."""
+    known = json.loads(file.read_text())[target]
+    print(f"  {ratio:.1f} reference compilations, {100 * (ratio / known - 1):+.0f} % of the {known:.1f} in {file.name}")
+    return ratio <= ALLOWED * known
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--against", type=pathlib.Path, metavar="CHECKOUT", help="another checkout, built in the same run")
-    parser.add_argument("--target", choices=["product", "all"], help="only this; both without it")
+    parser.add_argument("--target", choices=[*TARGETS], help="only this; all three without it")
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--no-headers", action="store_true", help="do not measure headers")
     parser.add_argument("--json", type=pathlib.Path, help="write the figures here too")
+    parser.add_argument("--hold", type=pathlib.Path, metavar="FILE", help="ratios that are written down: {target: ratio}")
     options = parser.parse_args()
     checkouts = [HERE.parent.parent] + ([options.against.resolve()] if options.against else [])
-    figures = {}
-    for target in [options.target] if options.target else ["product", "all"]:
-        print(f"\nCold build of {'what a run needs' if target == 'product' else 'everything'}, {options.jobs} jobs")
+    figures, too_much = {}, []
+    for target in [options.target] if options.target else TARGETS:
+        print(f"\nCold build of {TARGETS[target]}, {options.jobs} jobs")
         for checkout in checkouts:
-            cores, seconds, costs = measure(checkout, target, options.jobs)
+            cores, seconds, costs, unit = measure(checkout, target, options.jobs)
             figures.setdefault(target, []).append({"checkout": str(checkout), "core_seconds": cores, "seconds": seconds,
+                                                   "reference": unit, "ratio": cores / unit,
                                                    "files": costs[:SHOWN]})
-            print(f"  {cores:8.0f} core-seconds, {seconds:6.0f} s, {len(costs):4d} files compiled   {checkout}", flush=True)
+            print(f"  {cores:8.0f} core-seconds, {seconds:6.0f} s, {len(costs):4d} files compiled, "
+                  f"{cores / unit:.1f} times the reference of {unit:.1f} s   {checkout}", flush=True)
+            if options.hold and checkout == checkouts[0] and not held(target, cores / unit, options.hold):
+                too_much.append(target)
             for cost, name in costs[:SHOWN]:
                 print(f"    {cost:8.1f}   {name}")
         if options.against:
@@ -121,6 +154,9 @@ def main():
             print(f"    {cost:8.1f}   {name}")
     if options.json:
         options.json.write_text(json.dumps(figures, indent=2) + "\n")
+    if too_much:
+        sys.exit(f"a cold build of {' and '.join(too_much)} costs over 10 % more than {options.hold} allows. Find the file in "
+                 "the list above, or write down the new ratio with its reason")
 
 
 if __name__ == "__main__":
