@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "answer.hpp"
-#include "cohort/collection.hpp"
+#include "cohort/results.hpp"
 #include "cohort/results_folder.hpp"
 #include "cohort/shares.hpp"
 #include "cohort/study_output.hpp"
@@ -20,7 +20,6 @@
 #include "execution/interrupt.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
-#include "report/report.hpp"
 #include "stages.hpp"
 #include "supervisor.hpp"
 #include "text/aside.hpp"
@@ -38,9 +37,6 @@ struct CohortOptions {
   bool reports = false, no_reports = false, diagnose = false;
 };
 
-/// Above so many specimens a report for each is made only where somebody asks for it: a page is half a megabyte.
-constexpr std::size_t most_reports = 50;
-
 /// The command that goes on with it, with the options that decide the result.
 std::string command(const GlobalOptions& global, const std::string& verb, const CohortOptions& options,
                     const std::filesystem::path& results) {
@@ -54,45 +50,8 @@ std::string command(const GlobalOptions& global, const std::string& verb, const 
   return text::quoted(words);
 }
 
-/// The cohort as it was read, and where its results go.
-struct Opened {
-  cohort::Specification cohort;
-  cohort::SpecimenTable table;
-  cohort::Template pattern;
-
-  explicit Opened(const CohortOptions& options)
-      : cohort(cohort::read_specification(options.file)),
-        table(cohort::read_specimens(cohort)),
-        pattern(cohort, table) {
-    if (options.diagnose && !cohort.diagnosis) cohort.diagnosis.emplace();
-  }
-};
-
-void write_results(const Opened& opened, const cohort::Collection& found, const cohort::Study& study,
-                   const std::filesystem::path& results) {
-  execution::write_atomically(results / "cohort.json", opened.cohort.text);
-  execution::write_atomically(results / "parameters.csv", cohort::parameter_table(opened.table, found));
-  execution::write_atomically(results / "specimens.csv", cohort::specimen_table(opened.table, found));
-  execution::write_atomically(results / "population.csv", cohort::population_table(study));
-  execution::write_atomically(results / "shrunken.csv", cohort::shrunken_table(opened.table, study));
-  cohort::write_bands(results, study);
-  // What an earlier diagnosis left there, and this one would not write over.
-  for (const char* name : {"mechanisms.csv", "extended.json", "extended_cohort.json"}) {
-    std::error_code error;
-    std::filesystem::remove(results / name, error);
-  }
-  if (study.diagnosis) {
-    execution::write_atomically(results / "mechanisms.csv", cohort::mechanism_table(opened.table, *study.diagnosis));
-    if (!study.diagnosis->extended.empty()) {
-      execution::write_atomically(results / "extended.json", study.diagnosis->extended);
-      execution::write_atomically(results / "extended_cohort.json", study.diagnosis->extended_cohort);
-    }
-  }
-  execution::write_atomically(results / "result.json", cohort::study_json(opened.cohort, opened.table, found, study));
-}
-
-int merge(const GlobalOptions& global, const Session& session, const CohortOptions& options, const Opened& opened,
-          const std::filesystem::path& results) {
+int merge(const GlobalOptions& global, const Session& session, const CohortOptions& options,
+          const cohort::Opened& opened, const std::filesystem::path& results) {
   const auto found = cohort::collect(opened.cohort, opened.table, opened.pattern, session.catalogue(), results);
   if (!found.missing.empty())
     throw InputError(
@@ -103,13 +62,12 @@ int merge(const GlobalOptions& global, const Session& session, const CohortOptio
   cohort::Study study;
   {
     Stages stages(global.quiet);
-    study = cohort::study(opened.cohort, opened.table, opened.pattern, found, session.catalogue(), results,
-                          [&stages](const std::string& what, double share) { stages.tell(what, share); });
+    study = cohort::make_results(opened, found, session.catalogue(), results,
+                                 [&stages](const std::string& what, double share) { stages.tell(what, share); });
   }
-  write_results(opened, found, study, results);
-  const auto page = report::write_report(results);
   answer("{}{}\nReport:   {}\nResults:  {}\n", cohort::outcome_words(opened.table, found),
-         cohort::study_words(opened.table, study), page.string(), (results / "result.json").string());
+         cohort::study_words(opened.table, study), (results / "report.html").string(),
+         (results / "result.json").string());
   if (study.diagnosis && !study.diagnosis->extended.empty())
     answer("Try:      {}\n", text::quoted({"tunica", "cohort", (results / "extended_cohort.json").string()}));
   return found.count(cohort::Outcome::fitted) > 0 ? done : not_converged;
@@ -119,14 +77,14 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const cohort::Share share = options.share.empty() ? cohort::Share{} : cohort::parse_share(options.share);
   const Session session(global);
-  const Opened opened(options);
+  const cohort::Opened opened(options.file, options.diagnose);
   const auto begun = supervised::resumable_folder();
   const auto results = cohort::results_folder(begun.empty() ? options.directory : begun.string(), opened.cohort.name);
   supervised::resumable_in(results);
   execution::write_atomically(results / "cohort.json", opened.cohort.text);
   cohort::FitSettings settings;
   settings.results = results;
-  settings.reports = options.reports || (!options.no_reports && opened.table.specimens.size() <= most_reports);
+  settings.reports = options.reports || (!options.no_reports && opened.table.specimens.size() <= cohort::most_reports);
   settings.refusals = session.refusals();
   std::mutex saying;
   settings.noticed = [&saying](const std::string& sentence) {
@@ -163,7 +121,7 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
 int merge_only(const GlobalOptions& global, const CohortOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const Session session(global);
-  return merge(global, session, options, Opened(options), options.directory);
+  return merge(global, session, options, cohort::Opened(options.file, options.diagnose), options.directory);
 }
 
 void add_common(CLI::App& verb, CohortOptions& options, bool directory_required) {

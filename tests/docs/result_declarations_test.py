@@ -24,7 +24,7 @@ WRITERS = {
     COHORT: ["core/src/cohort/study_json.cpp", "core/src/cohort/diagnosis_json.cpp",
              "core/src/cohort_diagnosis/verdict_json.cpp"],
     ANSWERS: ["apps/tunica/check_json.cpp", "apps/tunica/describe_json.cpp", "apps/tunica/describe.cpp",
-              "apps/tunica/list.cpp", "apps/tunica/stability.cpp", "apps/tunica/plugin_check.cpp",
+              "apps/tunica/list.cpp", "core/src/comparison/stability_answer.cpp", "apps/tunica/plugin_check.cpp",
               "core/src/comparison/certify.cpp", "core/src/cluster/overview.cpp",
               "core/src/comparison/simulation_record.cpp", "core/src/comparison/stability_report.cpp"],
 }

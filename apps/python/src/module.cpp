@@ -43,6 +43,7 @@ PYBIND11_MODULE(_core, module) {
   py::register_exception_translator(&translate);
   add_library(module);
   add_verbs(module);
+  add_studies(module);
   add_problem(module);
   add_material(module);
   add_definitions(module);

@@ -6,6 +6,8 @@
     print(result.parameters)
 """
 from ._core import version as __version__
+from .cohorts import Cohort
+from .cohorts import open_results as open
 from .declarations import Observable, Parameter, forget
 from .energies import Energy, Strain, model
 from .errors import (EvaluationError, InputError, Interrupted, PluginFailure, StopSearch, TunicaError, WriteFailure)
@@ -14,15 +16,15 @@ from .material import Material
 from .mechanisms import mechanism
 from .problem import Evaluation, Problem
 from .results import Check, Diagnosis, Discovery, Estimate, Result, Run, Simulation
-from .results import open_results as open
 from .rigs import Imported, import_rig
 from .rows import Rows, test
 from .searches import Search, optimizer
+from .studies import cohort, export, report, stability
 from .table import Table
 from .verbs import check, diagnose, discover, run, simulate
 
-__all__ = ["Check", "Diagnosis", "Discovery", "Energy", "Estimate", "Evaluation", "EvaluationError", "Experiment", "Imported",
+__all__ = ["Check", "Cohort", "Diagnosis", "Discovery", "Energy", "Estimate", "Evaluation", "EvaluationError", "Experiment", "Imported",
            "InputError", "Interrupted", "Material", "Observable", "Parameter", "PluginFailure", "Problem", "Result", "Rows", "Run",
-           "Search", "Simulation", "StopSearch", "Strain", "Table", "TunicaError", "WriteFailure", "check", "describe",
-           "diagnose", "discover", "forget", "import_rig", "mechanism", "model", "names", "open", "optimizer", "read", "run", "schema",
-           "simulate", "test", "use_plugins", "__version__"]
+           "Search", "Simulation", "StopSearch", "Strain", "Table", "TunicaError", "WriteFailure", "check", "cohort", "describe",
+           "diagnose", "discover", "export", "forget", "import_rig", "mechanism", "model", "names", "open", "optimizer", "read", "report", "run", "schema",
+           "simulate", "stability", "test", "use_plugins", "__version__"]

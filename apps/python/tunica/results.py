@@ -14,7 +14,7 @@ from .errors import EvaluationError, InputError
 from .table import Table
 
 
-def _once(method):
+def once(method):
     """Reads a file when it is first asked for, and keeps what it says."""
     @functools.wraps(method)
     def kept(self):
@@ -87,7 +87,7 @@ class Folder:
     def __init__(self, directory):
         self.directory = pathlib.Path(directory)
         #: result.json as it is; tunica.result_types and docs/results-reference.md have its keys
-        self.json = _saved(self.directory / "result.json")
+        self.json = saved(self.directory / "result.json")
 
     @property
     def name(self):
@@ -186,11 +186,11 @@ class Run:
         return about and (about["parameters"], numpy.array(about["values"]))
 
     @property
-    @_once
+    @once
     def posterior(self):
         """{name: array} of draws from the posterior, chains × draws, in base units; None where none were asked for.
         `best["posterior"]` says whether the chains agree. arviz.from_json(run.posterior_file) reads the same."""
-        draws = self.posterior_file and _saved(self.posterior_file)["posterior"]
+        draws = self.posterior_file and saved(self.posterior_file)["posterior"]
         return draws and Named("parameter", {name: numpy.array(chains, dtype=float) for name, chains in draws.items()})
 
     @property
@@ -204,7 +204,7 @@ class Run:
         return self.json["converged"]
 
     @property
-    @_once
+    @once
     def fit(self):
         """{test: Table}: measured and predicted, row by row."""
         self.best  # raises where there is none
@@ -238,7 +238,7 @@ class Result(Folder):
     """What tunica.run() found."""
 
     @property
-    @_once
+    @once
     def runs(self):
         """{name: Run}, in the order of the experiment."""
         return {about["run"]: Run(self, about) for about in self.json["runs"]}
@@ -263,12 +263,12 @@ class Result(Folder):
         return self.best.posterior
 
     @property
-    @_once
+    @once
     def ranking(self):
         return self.table("ranking")
 
     @property
-    @_once
+    @once
     def evaluations(self):
         """Every evaluation, in the order of evaluations.csv."""
         return self.table("evaluations")
@@ -308,7 +308,7 @@ class Judgement(Folder):
         return file if file.exists() else None
 
     @property
-    @_once
+    @once
     def residuals(self):
         return self.table("residuals")
 
@@ -379,22 +379,11 @@ class Check(dict):
         return self["warnings"]
 
 
-def _saved(file):
+def saved(file):
     """JSON of a folder that somebody else may have made."""
     try:
-        saved = file.read_text(encoding="utf-8")
-        _core.check_levels(saved)  # as deep as the command line reads, whatever the interpreter allows
-        return json.loads(saved)
+        content = file.read_text(encoding="utf-8")
+        _core.check_levels(content)  # as deep as the command line reads, whatever the interpreter allows
+        return json.loads(content)
     except (ValueError, RecursionError, InputError) as problem:
         raise InputError(f"{file}: is not JSON that tunica has written ({problem}); run it again") from None
-
-
-def open_results(directory):
-    """Results that were written before, by Python or by the command line."""
-    directory = pathlib.Path(text(directory, "directory"))
-    if not (directory / "result.json").exists():
-        raise InputError(f"{directory}: there is no result.json; name the folder of a finished run, diagnosis or discovery")
-    found = _saved(directory / "result.json")
-    if "diagnosis" in found:
-        return Diagnosis(directory)
-    return Discovery(directory) if "discovery" in found else Result(directory)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the command line does, as functions: run, check, simulate, diagnose, discover."""
+import contextlib
 import json
 import os
 import pathlib
@@ -15,7 +16,8 @@ from .library import library, read
 from .results import Check, Diagnosis, Discovery, Result, Simulation
 
 
-def _threads(threads):
+def thread_count(threads):
+    """All of the machine unless given."""
     return len(os.sched_getaffinity(0)) if threads is None else int(threads)
 
 
@@ -39,8 +41,15 @@ class _Line:
             sys.stderr.flush()
 
 
-def _listener(progress):
-    return _Line() if progress is True else progress or None
+@contextlib.contextmanager
+def listening(progress):
+    """What a search tells how far it is; its line is gone afterwards."""
+    listener = _Line() if progress is True else progress or None
+    try:
+        yield listener
+    finally:
+        if isinstance(listener, _Line):
+            listener.clear()
 
 
 def _types(value):
@@ -93,15 +102,11 @@ def run(experiment, directory=None, *, base=None, threads=None, seed=None, profi
     EvaluationError where no run has a result; its `directory` has the record of the search.
     """
     found_experiment = read(experiment, base)
-    listener = _listener(progress)
     names = ["all"] if profiles == "all" else texts(profiles, "profiles")
-    try:
+    with listening(progress) as listener:
         found = _core.run(found_experiment._loaded, path(directory, "directory"), resume,
-                          _threads(threads), seed, names, bootstrap, _draws(posterior), bool(paired_starts), listener,
+                          thread_count(threads), seed, names, bootstrap, _draws(posterior), bool(paired_starts), listener,
                           _certify if certificate else None)
-    finally:
-        if isinstance(listener, _Line):
-            listener.clear()
     if found["ending"] == "interrupted":
         raise Interrupted(f"interrupted; everything so far is saved. Go on with "
                           f"run(…, directory={found['directory']!r}, resume=True)", found["directory"])
@@ -123,6 +128,24 @@ def check(experiment, *, base=None, run_external=False):
     return Check(json.loads(_core.check(read(experiment, base)._loaded, run_external)))
 
 
+def subject(experiment, model, parameters, scratch):
+    """The name of the model and the file of its parameters, as the command line has them. A dictionary of parameters
+    becomes a file of the folder `scratch`."""
+    if not model and len(experiment.input["models"]) == 1 and not isinstance(parameters, Result):
+        model = next(iter(experiment.input["models"]))
+    if hasattr(parameters, "json") and hasattr(parameters, "optimizer"):
+        model, parameters = model or parameters.model, {**parameters.parameters}
+    if isinstance(parameters, Result):
+        model = model or parameters.best.model
+        parameters = parameters.directory / "result.json"
+    if isinstance(parameters, dict):
+        file = pathlib.Path(scratch) / "parameters.json"
+        file.write_text(json.dumps({name: value if isinstance(value, str) else finite(value, f"parameters: '{name}'")
+                                    for name, value in parameters.items()}))
+        parameters = file
+    return text(model, "model"), path(parameters, "parameters")
+
+
 def simulate(experiment, model="", parameters=None, directory=None, *, base=None, run="", noise=0.0, seed=None,
              fields=()):
     """Predicts every test, as `tunica simulate` does; returns a Simulation.
@@ -132,21 +155,9 @@ def simulate(experiment, model="", parameters=None, directory=None, *, base=None
     write the tables; nothing is written without it. noise: relative, for synthetic data.
     """
     found_experiment = read(experiment, base)
-    if not model and len(found_experiment.input["models"]) == 1 and not isinstance(parameters, Result):
-        model = next(iter(found_experiment.input["models"]))
     with tempfile.TemporaryDirectory() as scratch:
-        if hasattr(parameters, "json") and hasattr(parameters, "optimizer"):
-            model, parameters = model or parameters.model, {**parameters.parameters}
-        if isinstance(parameters, Result):
-            model = model or parameters.best.model
-            parameters = parameters.directory / "result.json"
-        if isinstance(parameters, dict):
-            file = pathlib.Path(scratch) / "parameters.json"
-            file.write_text(json.dumps({name: value if isinstance(value, str) else finite(value, f"parameters: '{name}'")
-                                        for name, value in parameters.items()}))
-            parameters = file
-        found = _core.simulate(found_experiment._loaded, text(model, "model"), path(parameters, "parameters"),
-                               text(run, "run"), finite(noise, "noise"), seed, texts(fields, "fields"),
+        model, parameters = subject(found_experiment, model, parameters, scratch)
+        found = _core.simulate(found_experiment._loaded, model, parameters, text(run, "run"), finite(noise, "noise"), seed, texts(fields, "fields"),
                                path(directory, "directory"))
     return Simulation(found, directory)
 
@@ -159,7 +170,7 @@ def diagnose(experiment, directory=None, *, base=None, threads=None, seed=None, 
     quick: a first answer. Ctrl-C raises Interrupted, and leaves nothing behind.
     """
     found = _searched(experiment, base, progress, lambda loaded, listener: _core.diagnose(
-        loaded, path(directory, "directory"), _threads(threads), seed, finite(alpha, "alpha"),
+        loaded, path(directory, "directory"), thread_count(threads), seed, finite(alpha, "alpha"),
         texts(mechanisms, "mechanisms"), quick, listener))
     return Diagnosis(found["directory"])
 
@@ -176,19 +187,15 @@ def discover(experiment, directory=None, *, base=None, threads=None, seed=None, 
                "from_nothing": from_nothing, "invariants": texts(invariants, "invariants"), "laws": texts(laws, "laws"), "most_terms": most_terms,
                "most_parameters": most_parameters, "quick": quick}
     found = _searched(experiment, base, progress, lambda loaded, listener: _core.discover(
-        loaded, path(directory, "directory"), _threads(threads), options, listener))
+        loaded, path(directory, "directory"), thread_count(threads), options, listener))
     return Discovery(found["directory"])
 
 
 def _searched(experiment, base, progress, search):
     """What `search` says of the experiment that was read, and of a listener. Raises Interrupted."""
     found_experiment = read(experiment, base)
-    listener = _listener(progress)
-    try:
+    with listening(progress) as listener:
         found = search(found_experiment._loaded, listener)
-    finally:
-        if isinstance(listener, _Line):
-            listener.clear()
     if found["ending"] == "interrupted":
         raise Interrupted("interrupted; an unfinished search leaves nothing behind. Start it again, or with "
                           "quick=True for a first answer")
