@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Errors are exceptions that say what was found, where, and what to do."""
 import json
+import pathlib
+import subprocess
+import sys
 
 import tunica
 from support import TRELOAR, Case, of_treloar
@@ -35,6 +38,18 @@ class Errors(Case):
         self.assertIn("/models/rubber/type", message)
         self.assertIn("neo_hooke", message)
         self.assertIn("<dict>", message)
+
+    def test_a_package_without_its_extension_module_says_which_target_to_build(self):
+        package = pathlib.Path(tunica.__file__).parent
+        (self.folder / "tunica").mkdir()
+        for file in package.glob("*.py"):
+            (self.folder / "tunica" / file.name).write_bytes(file.read_bytes())
+        def said():
+            return subprocess.run([sys.executable, "-B", "-c", "import tunica"], capture_output=True, text=True,
+                                  env={"PYTHONPATH": str(self.folder)}, check=False).stderr.splitlines()[-1]
+        self.assertIn("it was not built. Build the target tunica_python", said())
+        (self.folder / "tunica/_core.cpython-30-other.so").touch()
+        self.assertIn("found _core.cpython-30-other.so, which are for other Pythons", said())
 
     def test_what_json_cannot_hold_is_named(self):
         experiment = of_treloar({"type": "neo_hooke"})

@@ -5,7 +5,13 @@
     result = tunica.run("experiment.json")
     print(result.parameters)
 """
-from ._core import version as __version__
+try:
+    from ._core import version as __version__
+except ModuleNotFoundError as problem:
+    from .missing import explained
+    if problem.name != "tunica._core":
+        raise
+    raise ImportError(explained()) from None
 from .cohorts import Cohort
 from .cohorts import open_results as open
 from .declarations import Observable, Parameter, forget
