@@ -53,7 +53,7 @@ endif()
 if(TUNICA_PRECOMPILED_HEADERS AND NOT CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
   set(TUNICA_COLD_BUILD TRUE)  # every file is compiled, so that it pays to spend memory on it
 endif()
-# g++ collects its garbage from 128 MiB on. With 2 GiB hardly a file of this project gets there, for up to 1.8 GiB a job.
+# g++ collects its garbage from 128 MiB on. With 2 GiB hardly a file of this project gets there, for up to 2 GiB a job.
 if(TUNICA_COLD_BUILD)
   add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=2097152>)
 endif()

@@ -17,7 +17,7 @@ import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = ROOT / "build/wheel"
-DEFINED = {"CMAKE_BUILD_TYPE": "Release", "CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": "16",
+DEFINED = {"CMAKE_BUILD_TYPE": "Release", "CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": "40",
            "TUNICA_PRECOMPILED_HEADERS": "ON", "TUNICA_BUILD_TESTS": "OFF", "TUNICA_BUILD_BENCH": "OFF",
            # The package with its plugins inside, which apps/python/_installation.py.in names.
            "TUNICA_PYTHON_INSTALL_DIR": ".", "CMAKE_INSTALL_LIBDIR": "tunica", "Python_EXECUTABLE": sys.executable}
