@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 #include <tbb/global_control.h>
