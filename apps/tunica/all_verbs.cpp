@@ -10,6 +10,7 @@ void add_verbs(CLI::App& app, GlobalOptions& global, Action& action) {
     add(app, global, action);
 #ifdef TUNICA_SERVES
   add_serve(app, global, action);
+  add_studio(app, global, action);
 #endif
 }
 

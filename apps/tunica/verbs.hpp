@@ -42,6 +42,7 @@ void add_import(CLI::App& app, GlobalOptions& global, Action& action);
 void add_check(CLI::App& app, GlobalOptions& global, Action& action);
 void add_simulate(CLI::App& app, GlobalOptions& global, Action& action);
 void add_serve(CLI::App& app, GlobalOptions& global, Action& action);
+void add_studio(CLI::App& app, GlobalOptions& global, Action& action);
 void add_stability(CLI::App& app, GlobalOptions& global, Action& action);
 void add_list(CLI::App& app, GlobalOptions& global, Action& action);
 void add_describe(CLI::App& app, GlobalOptions& global, Action& action);

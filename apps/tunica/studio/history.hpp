@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json_fwd.hpp>
+
+/// What was tried, read from the folders of results themselves.
+namespace tunica::app::studio {
+
+/// One folder of results: {"folder", "kind": run|diagnosis|discovery|simulation|unfinished, "written" (s since 1970),
+/// "experiment" (or null), "report", "leads_to": [{"file", "what": extended|mended|discovered}], "summary"}. A run has
+/// the best of each run in "summary": {"runs": [{run, rms, rms_upper, objective, converged, parameters}]}, a diagnosis
+/// its verdict and causes.
+nlohmann::ordered_json result_entry(const std::filesystem::path& folder);
+
+}  // namespace tunica::app::studio

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+/// The project is a folder: experiments, files of rigs and results in it, and .tunica-studio for what the studio keeps.
+/// The working folder of the process is the project, so that every command that is shown works there.
+namespace tunica::app::studio {
+
+/// ".tunica-studio", made where it is missing.
+std::filesystem::path own_place();
+
+/// A name as the page says it, relative to the project, that may or may not exist yet. Throws Refused where it leaves
+/// the folder, by "..", by a symbolic link or by being absolute, and where a part of it is hidden or no plain text.
+std::filesystem::path inside(const std::string& name);
+/// The same of a file that is there; throws InputError where it is not, or is no regular file.
+std::filesystem::path file_inside(const std::string& name);
+/// The same of any path of a file that an experiment names: it has to lie in the project, wherever it is written from.
+void require_inside(const std::filesystem::path& file, const std::string& named_by);
+
+/// A name for a new file from what somebody calls it: the last part of a path, no leading dots, letters, digits and
+/// "._- " as they are, everything else as "-".
+std::string file_name(std::string_view wished);
+/// "strip.csv", or "strip-2.csv" where that is taken, and so on.
+std::filesystem::path free_name(const std::filesystem::path& wished);
+
+/// What there is: {"experiments": [name], "data": [name], "results": [{"folder", "kind", …}]}, newest results first.
+nlohmann::ordered_json contents();
+
+/// The worked examples that were installed: [{"name", "title"}].
+nlohmann::ordered_json examples();
+/// Copies one, with the files of others that it names, and returns the experiment file. Throws InputError.
+std::string open_example(const std::string& name);
+
+}  // namespace tunica::app::studio

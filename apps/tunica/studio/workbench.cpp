@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/workbench.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "assembly/misfit_size.hpp"
+#include "assembly/quality.hpp"
+#include "calibration/examination.hpp"
+#include "check.hpp"
+#include "data/nearest.hpp"
+#include "execution/files.hpp"
+#include "execution/plan.hpp"
+#include "experiment/json_document.hpp"
+#include "serving/served_run.hpp"
+#include "studio/doorkeeper.hpp"
+#include "studio/project_folder.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::app::studio {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+/// The plan refers to the experiment beside it.
+struct Workbench::Open {
+  std::string file;
+  fs::file_time_type written;
+  experiment::Experiment experiment;
+  execution::Plan plan = {};
+};
+
+namespace {
+
+constexpr std::size_t most_rows = 1500;
+
+/// Row numbers of a channel that are shown: all, or evenly chosen ones with the last.
+std::vector<std::size_t> shown_rows(std::size_t count) {
+  std::vector<std::size_t> rows;
+  const std::size_t shown = std::min(count, most_rows);
+  for (std::size_t k = 0; k < shown; ++k) rows.push_back(shown < 2 ? 0 : k * (count - 1) / (shown - 1));
+  return rows;
+}
+
+template <class Values>
+json chosen(const Values& values, const std::vector<std::size_t>& rows) {
+  json list = json::array();
+  for (const std::size_t row : rows) list.push_back(values[row]);
+  return list;
+}
+
+json channel_json(const assembly::MeasuredChannel& channel) {
+  const auto rows = shown_rows(channel.count);
+  json held_out = json::array(), curves = json::array();
+  for (const std::size_t row : rows) held_out.push_back(channel.held_out(row));
+  if (!channel.drawn_over.curves.empty()) curves = chosen(channel.drawn_over.curves, rows);
+  return {{"test", channel.test},
+          {"observable", channel.observable},
+          {"unit", channel.unit},
+          {"over", channel.drawn_over.name},
+          {"over_unit", channel.drawn_over.unit},
+          {"rows", channel.count},
+          {"x", chosen(channel.drawn_over.values, rows)},
+          {"y", chosen(channel.measured, rows)},
+          {"held_out", std::move(held_out)},
+          {"curves", std::move(curves)}};
+}
+
+json run_json(const execution::PlannedRun& run) {
+  const auto& layout = run.assembly->layout();
+  json one = {{"label", run.label},
+              {"model", run.entry->model},
+              {"optimizer", run.entry->optimizer},
+              {"max_evaluations", run.entry->stop.max_evaluations},
+              {"costly", layout.has_costly_tests},
+              {"parameters", json::array()},
+              {"fixed", json::array()},
+              {"channels", json::array()}};
+  for (const auto& parameter : layout.parameters)
+    one["parameters"].push_back({{"name", parameter.name},
+                                 {"unit", parameter.unit},
+                                 {"min", parameter.min},
+                                 {"max", parameter.max},
+                                 {"initial", parameter.initial},
+                                 {"scale", parameter.scale == Scale::log ? "log" : "linear"}});
+  for (const auto& parameter : layout.fixed_parameters)
+    one["fixed"].push_back({{"name", parameter.name}, {"unit", parameter.unit}, {"value", parameter.value}});
+  for (const auto& channel : layout.channels) one["channels"].push_back(channel_json(channel));
+  return one;
+}
+
+const execution::PlannedRun& run_of(const execution::Plan& plan, const std::string& label) {
+  std::vector<std::string> labels;
+  for (const auto& run : plan.runs) {
+    if (run.label == label) return run;
+    labels.push_back(run.label);
+  }
+  throw InputError(fmt::format("the experiment has no run '{}'. {}", label, data::suggestion(label, labels)));
+}
+
+/// The page evaluates at every move of a slider: nothing of others may be started by that.
+void refuse_programs(const experiment::Experiment& experiment) {
+  for (const auto& test : experiment.tests)
+    if (test.options.has("command") || test.options.has("url"))
+      throw InputError(fmt::format(
+          "test '{}' starts a program or asks a server, which a slider does not; fit it instead", test.name));
+}
+
+}  // namespace
+
+Workbench::Workbench(const Session& session) : session_(session) {}
+Workbench::~Workbench() = default;
+
+experiment::Experiment Workbench::read(const fs::path& file) const {
+  auto experiment = session_.read(file, experiment::Purpose::prediction);
+  for (const auto& test : experiment.tests)
+    for (const fs::path& data : test.data.files) require_inside(data, file.string());
+  return experiment;
+}
+
+std::shared_ptr<const Workbench::Open> Workbench::opened(const std::string& name) {
+  constexpr std::size_t most = 6;
+  const fs::path file = file_inside(name);
+  const auto written = fs::last_write_time(file);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::find_if(open_.begin(), open_.end(),
+                                    [&](const auto& one) { return one->file == name && one->written == written; });
+    if (found != open_.end()) {
+      open_.splice(open_.begin(), open_, found);
+      return open_.front();
+    }
+  }
+  auto open = std::make_shared<Open>(Open{name, written, read(file)});
+  refuse_programs(open->experiment);
+  open->plan = execution::make_plan(open->experiment, session_.catalogue());
+  if (open->plan.runs.empty())
+    throw InputError(fmt::format("{}: there is nothing to fit; give it \"optimizers\" and \"runs\"", name));
+  const std::lock_guard lock(mutex_);
+  open_.push_front(open);
+  if (open_.size() > most) open_.pop_back();
+  return open;
+}
+
+json Workbench::document(const std::string& name) {
+  const fs::path file = file_inside(name);
+  const experiment::JsonDocument document(file, execution::read_text(file));
+  return {{"document", document.root()},
+          {"text", document.text()},
+          {"commented", json::parse(document.text(), nullptr, false).is_discarded()}};
+}
+
+json Workbench::save(const std::string& name, const json& document, bool as_new) {
+  const fs::path file = file_inside(name);
+  const bool of_others =
+      Workbench::document(name)["commented"].get<bool>() || fs::exists(file.parent_path() / "result.json");
+  fs::path target = file;
+  // Relative names of data begin at the folder of the file, so that a copy stays there.
+  if (as_new || of_others) target = free_name(file);
+  const fs::path trial =
+      free_name(inside((file.parent_path() / ("trial-of-" + file.filename().string())).generic_string()));
+  execution::write_atomically(trial, document.dump(2) + '\n');
+  try {
+    static_cast<void>(read(trial));
+  } catch (const InputError& problem) {
+    std::error_code none;
+    fs::remove(trial, none);
+    std::string words = problem.what();
+    if (const auto at = words.find(trial.string()); at != std::string::npos)
+      words.replace(at, trial.string().size(), name);
+    throw InputError(words);
+  } catch (...) {
+    std::error_code none;
+    fs::remove(trial, none);
+    throw;
+  }
+  fs::rename(trial, target);
+  return {{"file", target.generic_string()}};
+}
+
+json Workbench::problem(const std::string& name) {
+  const auto open = opened(name);
+  json problem = {{"name", open->experiment.name}, {"seed", open->experiment.seed}, {"runs", json::array()}};
+  for (const auto& run : open->plan.runs) problem["runs"].push_back(run_json(run));
+  return problem;
+}
+
+json Workbench::simulate(const std::string& name, const std::string& label, const std::vector<double>& values) {
+  const auto open = opened(name);
+  const auto& run = run_of(open->plan, label);
+  const auto& layout = run.assembly->layout();
+  if (values.size() != layout.parameters.size())
+    throw InputError(fmt::format("{} values were given for {} parameters; load the page again", values.size(),
+                                 layout.parameters.size()));
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    const serving::ServedRun served(*run.assembly);
+    const auto objective = served.values(serving::ServedRun::Function::objective, values).front().front();
+    const auto predictions = served.values(serving::ServedRun::Function::predictions, values);
+    json answer = {{"channels", json::array()}, {"objective", objective}, {"quality", json::array()}};
+    std::vector<double> all;
+    for (const auto& channel : predictions) {
+      answer["channels"].push_back(chosen(channel, shown_rows(channel.size())));
+      all.insert(all.end(), channel.begin(), channel.end());
+    }
+    const auto ranges = assembly::observable_ranges(layout, open->experiment);
+    const auto quality = assembly::quality(*run.assembly, all);
+    for (std::size_t k = 0; k < quality.size(); ++k) {
+      const auto& agreement = quality[k].fitted ? quality[k].fitted : quality[k].held_out;
+      json one = nullptr;
+      if (agreement)
+        one = {{"rmse", agreement->rmse},
+               {"r2", agreement->r2 ? json(*agreement->r2) : json(nullptr)},
+               {"share", agreement->rmse / ranges[k]}};
+      answer["quality"].push_back(std::move(one));
+    }
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    answer["milliseconds"] = took.count();
+    return answer;
+  } catch (const serving::ModelFailure& failure) {
+    return {{"failed", failure.what()}};
+  }
+}
+
+json Workbench::check(const std::string& name) {
+  const auto experiment = calibration::offline(read(file_inside(name)));
+  return check_json(calibration::examine(experiment, session_.catalogue()));
+}
+
+}  // namespace tunica::app::studio

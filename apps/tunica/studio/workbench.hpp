@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "session.hpp"
+
+namespace tunica::app::studio {
+
+/// Experiments that the page has open, with what their runs predict: the core's own functions, called in this process.
+/// Tests that start a program or ask a server are not evaluated here. Thread-safe.
+class Workbench {
+ public:
+  explicit Workbench(const Session& session);
+  ~Workbench();
+
+  /// The document without its comments, and the file's state: {"document", "text", "commented"}. Throws InputError.
+  static nlohmann::ordered_json document(const std::string& file);
+  /// Writes a document: over the file where that had no comments and is nobody's result, else beside it. What the
+  /// program cannot read is not written. Returns {"file"}. Throws InputError.
+  nlohmann::ordered_json save(const std::string& file, const nlohmann::ordered_json& document, bool as_new);
+
+  /// {"name", "runs": [{"label", "model", "optimizer", "parameters": [{name, unit, min, max, initial, scale}], "fixed",
+  /// "channels": [{test, observable, unit, over, over_unit, x, y, held_out, curves, rows}]}]}. Channels have at most
+  /// 1500 rows, evenly chosen. Throws InputError.
+  nlohmann::ordered_json problem(const std::string& file);
+  /// What a run predicts at values of its free parameters, in base units, at the rows that problem() gives:
+  /// {"channels":
+  /// [[y]], "objective", "quality": [{rmse, r2, share}], "milliseconds"}, or {"failed": reason}. `share` is RMSE over
+  /// the range of the observable. Throws InputError.
+  nlohmann::ordered_json simulate(const std::string& file, const std::string& label, const std::vector<double>& values);
+  /// As `tunica check --json`. Throws InputError.
+  nlohmann::ordered_json check(const std::string& file);
+
+ private:
+  struct Open;
+  std::shared_ptr<const Open> opened(const std::string& file);
+  [[nodiscard]] experiment::Experiment read(const std::filesystem::path& file) const;
+
+  const Session& session_;
+  std::mutex mutex_;
+  std::list<std::shared_ptr<const Open>> open_;  ///< the last used first
+};
+
+}  // namespace tunica::app::studio
