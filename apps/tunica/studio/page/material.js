@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Model and parameters: the curve follows the sliders before anything is fitted.
+import { chart } from "./chart.js";
+import { add, attempt, check, choice, el, field, notice, panel, problem, put, shell } from "./dom.js";
+import { setModel, setParameters, setTests } from "./edits.js";
+import { ask } from "./server.js";
+import { latest, sliders } from "./sliders.js";
+import { axis, number, percent, plain, quoted, unit } from "./words.js";
+
+const to = (kind, name) => `#/${kind}/${encodeURIComponent(name)}`;
+
+/** Rows at which another curve of a family begins. */
+const breaks = (curves) => curves.map((name, k) => (k > 0 && name !== curves[k - 1] ? k : -1)).filter((k) => k > 0);
+
+function pictures(run) {
+  return run.channels.map((channel) => chart({
+    title: plain(channel.test), note: channel.rows > channel.x.length ? `${channel.x.length} of ${channel.rows} rows are drawn` : "",
+    x: axis(channel.over, channel.over_unit), y: axis(channel.observable, channel.unit), height: run.channels.length > 2 ? 300 : 380,
+    series: [{ name: channel.held_out.some(Boolean) ? "measured (partly held out)" : "measured", x: channel.x, y: channel.y, points: true },
+      { name: "model", x: channel.x, y: channel.x.map(() => null), colour: 0, breaks: breaks(channel.curves), free: true }] }));
+}
+
+function modelPanel(name, run, document, catalogue, open) {
+  const models = catalogue.models, type = document.models[run.model]?.type, about = models.find((one) => one.name === type);
+  const list = choice(models.map((one) => [one.name, plain(one.name)]), type), place = panel("Model");
+  const required = about?.options?.length ? ` · options: ${about.options.map((one) => one.name).join(", ")}` : "";
+  list.addEventListener("change", () => attempt(place, async () => {
+    const changed = structuredClone(document);
+    setModel(changed, run.model, list.value, list.value === "ogden" ? { terms: 2 } : {});
+    open(await ask("save", { file: name, document: changed }));
+  }));
+  add(place, field("Constitutive model", list), about ? el("p", {}, about.doc) : "", about ? el("p", {}, el("small", {}, about.reference, required)) : "");
+  return place;
+}
+
+function testsPanel(name, run, document, open) {
+  const all = Object.keys(document.tests), used = new Set(run.tests), place = panel("Tests");
+  const rows = all.map((test) => {
+    const on = check("fit", used.has(test)), out = check("hold out", document.tests[test].hold_out === true);
+    const plainWeight = typeof (document.tests[test].weight ?? 1) === "number";
+    const weight = el("input", { type: "number", class: "number", step: "any", min: 0, value: String(plainWeight ? document.tests[test].weight ?? 1 : ""), disabled: !plainWeight, "aria-label": `Weight of ${test}` });
+    return { test, on: on.querySelector("input"), out: out.querySelector("input"), weight, node: el("li", {}, el("strong", {}, plain(test)), on, out, el("label", {}, "weight ", weight)) };
+  });
+  place.append(el("ul", { class: "plain" }, rows.map((row) => row.node)), el("button", { onclick: () => attempt(place, async () => {
+    const changed = structuredClone(document);
+    setTests(changed, rows.filter((row) => row.on.checked).map((row) => row.test), new Set(rows.filter((row) => row.out.checked).map((row) => row.test)),
+      new Map(rows.filter((row) => row.weight.value !== "" && Number(row.weight.value) !== (document.tests[row.test].weight ?? 1)).map((row) => [row.test, Number(row.weight.value)])));
+    open(await ask("save", { file: name, document: changed }));
+  }) }, "Use these tests"));
+  return place;
+}
+
+/** What `tunica check` says, asked once the page is there. */
+async function checked(place, name) {
+  try {
+    const said = await ask("check", { file: name }), unfixed = new Set(said.problems.flatMap((one) => one.initial.identifiability ?? []));
+    const understood = Object.values(said.understood).flat();
+    add(place, el("p", {}, el("span", { class: `tag ${said.in_order ? "good" : "bad"}` }, said.in_order ? "in order" : "not in order")),
+      said.warnings.length ? el("div", { class: "box bad" }, el("ul", {}, said.warnings.map((line) => el("li", {}, line)))) : "",
+      understood.length ? el("ul", {}, understood.map((line) => el("li", {}, line))) : "",
+      unfixed.size ? el("details", {}, el("summary", {}, "What the data do not fix at the initial values"), el("ul", {}, [...unfixed].map((line) => el("li", {}, line)))) : "");
+  } catch (error) {
+    place.append(problem(error.message));
+  }
+  place.append(shell(`tunica check ${quoted(name)}`));
+}
+
+export async function materialPage(place, all, name) {
+  const [file, catalogue] = await Promise.all([ask("document", { file: name }), ask("catalogue")]);
+  const open = ({ file: saved }) => {
+    if (saved !== name) notice(`${name} stays as it is; the change is in ${saved}`);
+    if (saved === name) dispatchEvent(new HashChangeEvent("hashchange")); else location.hash = to("work", saved);
+  };
+  const below = el("div");
+  place.append(el("h1", {}, name), below);
+  const problemOf = await attempt(below, () => ask("problem", { file: name }));
+  const checks = panel("Check");
+  checked(checks, name);
+  if (!problemOf) { place.append(checks, text(file)); return; }
+  let run = problemOf.runs[0];
+  const choose = problemOf.runs.length > 1 ? field("Run", choice(problemOf.runs.map((one) => [one.label, one.label]), run.label, { onchange: (event) => show(problemOf.runs.find((one) => one.label === event.target.value)) })) : "";
+  const body = el("div");
+  add(below, choose, body);
+  function show(chosen) {
+    run = chosen;
+    const charts = pictures(run), quality = el("div", { class: "row", role: "status" }), failed = el("div");
+    const shown = (answer, milliseconds) => {
+      put(failed, answer.failed ? problem(answer.failed) : "");
+      if (answer.failed) return;
+      answer.channels.forEach((values, k) => charts[k].set(1, values));
+      put(quality, el("span", {}, "objective ", el("strong", {}, number(answer.objective, 5))), ...answer.quality.map((one, k) => one
+        ? el("span", {}, plain(run.channels[k].test), " misses by ", el("strong", {}, percent(one.share)), ` of the range (RMSE ${number(one.rmse, 3)}${unit(run.channels[k].unit)})`) : ""));
+      (window.tunicaFrames ??= []).push(milliseconds);
+    };
+    const simulate = latest((values) => ask("simulate", { file: name, run: run.label, values }), shown, (error) => failed.replaceChildren(problem(error.message)));
+    const knobs = sliders(run.parameters, simulate), saving = el("div");
+    simulate(knobs.values);
+    const keep = el("button", { onclick: () => attempt(saving, async () => {
+      const changed = structuredClone(file.document);
+      setParameters(changed, run.model, run.parameters, knobs.values);
+      open(await ask("save", { file: name, document: changed }));
+    }) }, "Keep as initial values and bounds");
+    put(body, el("div", { class: "wide" },
+      el("div", { class: "sticky" }, modelPanel(name, run, file.document, catalogue, open),
+        panel("Parameters", knobs.node, el("div", { class: "row" }, keep), saving,
+          run.fixed.length ? el("p", {}, el("small", {}, "Held: ", run.fixed.map((one) => `${one.name} = ${number(one.value)}${unit(one.unit)}`).join(", "))) : "",
+          shell(`tunica simulate ${quoted(name)} --model ${quoted(run.model)} -o predicted`))),
+      el("div", {}, panel("Curve over the data", charts.map((one) => one.node), quality, failed, el("div", { class: "row" }, el("a", { class: "button", href: to("fit", name) }, "Next: fit"))),
+        testsPanel(name, { tests: (file.document.runs ?? []).find((one) => one.model === run.model)?.tests ?? Object.keys(file.document.tests) }, file.document, open), checks, text(file))));
+  }
+  show(run);
+}
+
+const text = (file) => el("details", { class: "panel" }, el("summary", {}, "The experiment file"), el("pre", {}, file.text));

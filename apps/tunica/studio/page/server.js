@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page asks of the server. Errors carry the words of the program.
+let viewed = "/";
+
+async function answer(response) {
+  if (response.ok) return response.json();
+  const text = await response.text();
+  let words = text;
+  try {
+    words = JSON.parse(text).error ?? text;
+  } catch {} // a refusal is plain text
+  throw new Error(typeof words === "string" ? words : words.message);
+}
+
+async function reach(path, options) {
+  try {
+    return await fetch(path, options);
+  } catch {
+    throw new Error("the server does not answer; it was ended, or the machine slept. Start `tunica studio` again and open its address");
+  }
+}
+
+export const ask = async (what, question = {}) =>
+  answer(await reach(`/api/${what}`, { method: "POST", body: JSON.stringify(question) }));
+
+export const upload = async (file) =>
+  answer(await reach(`/api/upload?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file }));
+
+export async function project() {
+  const all = await ask("project");
+  viewed = all.view;
+  return all;
+}
+
+/** The address of a file of the project, for links. */
+export const view = (name) => viewed + name.split("/").map(encodeURIComponent).join("/");
+
+export async function result(folder) {
+  if (viewed === "/") await project();
+  return answer(await reach(view(`${folder}/result.json`)));
+}
+
+/** Listens to a job until its end. Returns a function that stops listening. */
+export function follow(id, { begin, progress, end }) {
+  const source = new EventSource(`/api/events?name=${encodeURIComponent(id)}`);
+  source.addEventListener("begin", () => begin?.());
+  source.addEventListener("progress", (event) => progress?.(JSON.parse(event.data)));
+  source.addEventListener("end", (event) => {
+    source.close();
+    end?.(JSON.parse(event.data));
+  });
+  return () => source.close();
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The project: what lies in the folder, and a place to drop files.
+import { add, attempt, el, notice, panel, shell } from "./dom.js";
+import { jobLine } from "./jobs.js";
+import { ask, upload } from "./server.js";
+import { percent, when } from "./words.js";
+
+const to = (kind, name) => `#/${kind}/${encodeURIComponent(name)}`;
+
+function dropZone() {
+  const place = el("section", { class: "drop", "aria-label": "Files of a rig" });
+  const take = (files) => attempt(place, async () => {
+    const names = [];
+    for (const file of files) names.push((await upload(file)).file);
+    if (names.length === 0) return;
+    notice(`${names.length === 1 ? names[0] : `${names.length} files`} saved in the project`);
+    location.hash = to("data", names.join("\n"));
+  });
+  const input = el("input", { type: "file", multiple: true, id: "files", onchange: () => take(input.files) });
+  place.append(el("p", {}, el("strong", {}, "Drop the files of your testing machine here")),
+    el("p", { class: "muted" }, "Header lines, decimal commas and any units are fine. Several files become several tests."),
+    el("p", {}, el("label", { for: "files" }, "or choose them: "), input));
+  place.addEventListener("dragover", (event) => { event.preventDefault(); place.classList.add("over"); });
+  place.addEventListener("dragleave", () => place.classList.remove("over"));
+  place.addEventListener("drop", (event) => { event.preventDefault(); place.classList.remove("over"); take(event.dataTransfer.files); });
+  return place;
+}
+
+const list = (items, empty) => items.length ? el("ul", { class: "plain" }, items) : el("p", { class: "muted" }, empty);
+
+function resultLine(one) {
+  const best = one.summary?.runs?.[0], rms = best?.rms ?? one.summary?.rms;
+  return el("li", {}, el("a", { href: "#/history" }, one.folder), el("span", { class: "tag" }, one.kind),
+    el("small", {}, rms === null || rms === undefined ? "" : rms === 0 ? "misses noise only · " : `misses by ${percent(rms)} of the range · `, when(one.written)));
+}
+
+export async function startPage(place, all) {
+  const interrupted = all.jobs.filter((job) => job.state === "running" || job.resumable);
+  const examples = panel("Worked examples");
+  add(examples, list(all.examples.map((one) => el("li", {}, el("button", { class: "link", onclick: () => attempt(examples, async () => {
+    const { file } = await ask("example", { name: one.name });
+    location.hash = to("work", file);
+  }) }, one.title))), "The examples of this installation were not found."));
+  add(place, el("h1", {}, all.folder), dropZone(),
+    interrupted.length ? panel("Running and interrupted", el("ul", { class: "plain" }, interrupted.map(jobLine))) : "",
+    el("div", { class: "two" },
+      el("div", {},
+        panel("Experiments", list(all.experiments.map((name) => el("li", {}, el("a", { href: to("work", name) }, name))),
+          "None yet. Drop files above, or open an example.")),
+        panel("Files of rigs", list(all.data.map((name) => el("li", {}, el("a", { href: to("data", name) }, name))), "None yet.")),
+        panel("Results", list(all.results.slice(0, 12).map(resultLine), "None yet."))),
+      examples),
+    all.complete ? "" : el("p", { class: "box bad" }, "The folder has more files than are listed here."),
+    shell(`cd ${all.folder} && tunica studio`));
+}
