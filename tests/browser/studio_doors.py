@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Who may ask `tunica studio`, and for what: token, Host, Origin, names of files, sizes, jobs that end with the server.
+Needs no browser."""
+import argparse
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+from studio_server import Studio, rig_file, slow_experiment
+
+
+def only_with_the_token(studio):
+    headers = {"Host": studio.host}
+    assert studio.request("GET", "/", headers=headers)[0] == 403
+    assert studio.request("GET", "/?token=" + "0" * 32, headers=headers)[0] == 403
+    for cookie in ("", "tunica_studio=" + studio.token, studio.cookie[:-1], studio.cookie + "0", f"x{studio.cookie}"):
+        assert studio.request("GET", "/", headers={**headers, "Cookie": cookie})[0] == 403, cookie
+    status, found, _ = studio.request("GET", f"/?token={studio.token}", headers=headers)
+    assert status == 303 and found["Location"] == "/", found
+    assert "HttpOnly" in found["Set-Cookie"] and "SameSite=Strict" in found["Set-Cookie"], found
+    status, found, page = studio.get("/")
+    assert status == 200 and b"tunica" in page
+    policy = found["Content-Security-Policy"]
+    assert "default-src 'none'" in policy and "unsafe" not in policy and "frame-ancestors 'none'" in policy, policy
+    assert studio.request("PUT", "/api/project", b"{}", studio.own(b"{}"))[0] == 403
+
+
+def only_from_its_own_page(studio):
+    for host in ("evil.example", f"evil.example:{studio.port}", "127.0.0.1", f"127.0.0.1:{studio.port + 1}", ""):
+        assert studio.post("/api/project", {}, Host=host)[0] == 403, host
+        assert studio.request("GET", "/", headers={"Host": host, "Cookie": studio.cookie})[0] == 403, host
+    for origin in ("http://evil.example", "null", "", f"https://{studio.host}", f"http://127.0.0.1:{studio.port + 1}"):
+        assert studio.post("/api/project", {}, Origin=origin)[0] == 403, origin
+    headers = studio.own(b"{}")
+    del headers["Origin"]
+    assert studio.request("POST", "/api/project", b"{}", headers)[0] == 403
+    assert studio.post("/api/project", {}, Host=f"localhost:{studio.port}", Origin=f"http://localhost:{studio.port}")[0] == 200
+
+
+def nothing_outside_the_project(studio, outside):
+    os.symlink(outside / "secret.csv", studio.folder / "link.csv")
+    os.symlink(outside, studio.folder / "linked")
+    names = ("../secret.csv", "/etc/passwd", "a/../../secret.csv", "./x.csv", "..", "link.csv", "linked/secret.csv",
+             ".tunica-studio/lock", "a\u0000b", "a\u202eb", "a\nb", "")
+    for name in names:
+        for path, question in (("look", {"files": [name]}), ("import", {"files": [name]}), ("document", {"file": name}), ("problem", {"file": name}),
+                               ("check", {"file": name}), ("save", {"file": name, "document": {}}), ("start", {"verb": "run", "experiment": name}),
+                               ("start", {"verb": "report", "folders": [name]}), ("start", {"verb": "export", "folder": name, "to": "febio"})):
+            status, said = studio.post(f"/api/{path}", question)
+            assert status == 403 and "secret\n" not in said, f"{path} {name!r}: {status} {said}"
+    for name in ("../secret.csv", "%2e%2e/secret.csv", "link.csv", "linked/secret.csv", ".tunica-studio/lock", "%00"):
+        status, _, said = studio.shown(name)
+        assert status in (400, 403) and b"secret\n" not in said, f"{name}: {status} {said}"
+    listed = json.dumps(studio.ask("project"))
+    assert "secret" not in listed and "link" not in listed, listed
+    (studio.folder / "names_others.json").write_text(json.dumps({
+        "format": 1, "models": {"neo_hooke": {"type": "neo_hooke"}}, "optimizers": {"lm": {"type": "ceres_lm"}},
+        "tests": {"strip": {"type": "uniaxial", "direction": "axial", "data": {"file": str(outside / "secret.csv"), "columns": {"stretch": "stretch", "stress": "stress"}}}},
+        "runs": [{"model": "neo_hooke", "optimizer": "lm"}]}))
+    for path in ("problem", "check"):
+        status, said = studio.post(f"/api/{path}", {"file": "names_others.json"})
+        assert status == 403 and "outside of the project" in said, said
+
+
+def files_are_shown_apart(studio):
+    (studio.folder / "page.html").write_text("<script>fetch('/api/project')</script>")
+    status, headers, _ = studio.shown("page.html")
+    policy = headers["Content-Security-Policy"]
+    assert status == 200 and policy.startswith("sandbox") and "allow-same-origin" not in policy and "connect-src" not in policy, policy
+    assert headers["X-Content-Type-Options"] == "nosniff"
+    other = "/view/" + "0" * 32 + "/page.html"
+    assert studio.request("GET", other, headers={"Host": studio.host, "Cookie": studio.cookie})[0] == 403
+
+
+def uploads_have_limits_and_plain_names(studio):
+    headers = {**studio.own(), "Content-Length": str((64 << 20) + 1)}
+    assert studio.request("POST", "/api/upload?name=large.csv", b"", headers)[0] == 413
+    assert studio.request("POST", "/api/project", b"", {**studio.own(), "Content-Length": str(5 << 20)})[0] == 413
+    headers = studio.own()
+    del headers["Content-Length"]
+    assert studio.request("POST", "/api/upload?name=x.csv", b"0\r\n\r\n", {**headers, "Transfer-Encoding": "chunked"})[0] == 411
+    assert studio.upload("empty.csv", b"")[0] == 400
+    status, said = studio.upload("..%2F..%2F%3Cscript%3Ealert(1)%3C%2Fscript%3E.csv", rig_file())
+    assert status == 200 and said["file"] == "script-.csv", said
+    assert studio.upload("-o.csv", rig_file())[1]["file"] == "o.csv"
+    assert studio.upload("o.csv", rig_file())[1]["file"] == "o-2.csv", "a file was overwritten"
+    assert not list(studio.folder.parent.glob("*.csv"))
+
+
+def errors_carry_the_words_of_the_core(studio):
+    (studio.folder / "wrong.json").write_text('{"format": 1, "modells": {}, "models": {}, "tests": {}}')
+    status, said = studio.post("/api/check", {"file": "wrong.json"})
+    assert status == 400 and "modells" in said["error"], said
+    assert studio.post("/api/simulate", b"{")[0] == 400
+    assert studio.post("/api/nothing", {})[0] == 400
+    assert studio.post("/api/start", {"verb": "plugin"})[0] == 400
+
+
+def one_server_a_project(tunica, studio):
+    found = subprocess.run([tunica, "studio", str(studio.folder), "--no-browser"], capture_output=True, text=True, timeout=30)
+    assert found.returncode == 2 and "another `tunica studio`" in found.stderr, found.stderr
+
+
+def is_alive(words):
+    """Whether a process of this command line is there."""
+    return any(words in (process / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+               for process in pathlib.Path("/proc").glob("[0-9]*") if (process / "cmdline").exists())
+
+
+def jobs_end_with_the_server_and_go_on_with_the_next(options, folder):
+    slow_experiment(options.source, folder)
+    straight = folder / "straight"
+    with Studio(options.tunica, folder) as studio:
+        job = studio.ask("start", verb="run", experiment="slow.json")
+        journal = folder / job["folder"] / "evaluations.csv"
+        while not journal.exists() or journal.read_bytes().count(b"\n") < 200:
+            time.sleep(0.02)
+        studio.process.send_signal(signal.SIGKILL)
+        studio.process.wait()
+        for _ in range(100):
+            if not is_alive(job["folder"]):
+                break
+            time.sleep(0.05)
+        assert not is_alive(job["folder"]), "the job goes on without its server"
+        assert journal.read_bytes().count(b"\n") < 650, "the job was over before the server was ended"
+    with Studio(options.tunica, folder) as studio:
+        found = next(one for one in studio.ask("project")["jobs"] if one["id"] == job["id"])
+        assert found["state"] == "interrupted" and found["resumable"], found
+        again = studio.ask("start", verb="run", resume=job["id"])
+        assert "--resume" in again["command"] and again["folder"] == job["folder"], again
+        time.sleep(0.3)
+        studio.ask("stop", id=again["id"])
+        stopped = studio.wait(again["id"])
+        assert stopped["state"] == "stopped" and stopped["resumable"], stopped
+        last = studio.ask("start", verb="run", resume=again["id"])
+        ended = studio.wait(last["id"])
+        assert ended["state"] in ("done", "not_converged"), ended
+    run = [options.tunica, "run", "slow.json", "-o", str(straight), "--quiet"]
+    assert subprocess.run(run, cwd=folder, capture_output=True, timeout=120).returncode in (0, 1)
+    best = [json.loads((place / "result.json").read_text())["runs"][0]["best"] for place in (folder / job["folder"], straight)]
+    assert best[0]["objective"] == best[1]["objective"] and best[0]["parameters"] == best[1]["parameters"], "killed twice, and another result"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--tunica", required=True)
+    parser.add_argument("--source", type=pathlib.Path, required=True)
+    parser.add_argument("--output", type=pathlib.Path, required=True)
+    options = parser.parse_args()
+    shutil.rmtree(options.output, ignore_errors=True)
+    outside, project, slow = (options.output.resolve() / name for name in ("outside", "outside/project", "slow"))
+    for folder in (outside, project, slow):
+        folder.mkdir(parents=True)
+    (outside / "secret.csv").write_text("stretch,stress\n1,0\n1.1,1\n1.2,3\nsecret\n")
+    with Studio(options.tunica, project) as studio:
+        only_with_the_token(studio)
+        only_from_its_own_page(studio)
+        nothing_outside_the_project(studio, outside)
+        files_are_shown_apart(studio)
+        (outside / "secret.csv").unlink()
+        uploads_have_limits_and_plain_names(studio)
+        errors_carry_the_words_of_the_core(studio)
+        one_server_a_project(options.tunica, studio)
+    assert studio.process.returncode == 0, studio.process.returncode
+    for log in (studio.said, (project / ".tunica-studio/refused.log").read_text()):
+        assert log.count("refused: ") > 100, log[-2000:]
+        assert "Host names another machine" in log and "Origin" in log and "\u202e" not in log
+    assert studio.token not in studio.said and studio.token not in (project / ".tunica-studio/refused.log").read_text()
+    jobs_end_with_the_server_and_go_on_with_the_next(options, slow)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From a stranger's rig file to a diagnosed, extended, exported result in headless Chromium, with three numbers typed. Then
+the browser is opened again, the server killed in the middle of a fit and taken up, names that would act are shown, and
+every page at 400 px, dark, with its names for screen readers. With --pictures there is one of each page in OUTPUT/pictures."""
+import argparse
+import pathlib
+import shutil
+import signal
+import statistics
+import sys
+import time
+
+from browser import Browser, available
+from studio_page import Page
+from studio_server import Studio, rig_file, slow_experiment
+
+MARKUP = "<img src=x onerror=window.hacked=1>"
+
+
+def import_rig_file(page, file):
+    page.choose_file(file)
+    page.see("What was understood")
+    page.until("return document.querySelectorAll('svg.chart .point[d]').length > 0", seconds=10)
+    page.see("with example sizes")
+    for option, size in (("--width", "6 mm"), ("--thickness", "1.5 mm"), ("--gauge-length", "20 mm")):
+        page.set(f"[data-option='{option}']", size)
+    page.see("stretch = 1 + displacement / 20 mm")
+    page.until("return !document.body.innerText.includes('with example sizes')")
+    page.see("tunica import strip.txt")
+    page.picture("data")
+    page.click("Write the experiment")
+    page.see("Curve over the data")
+
+
+def move_sliders(page):
+    """The curve is another one after each move; returns the times from a move to its frame, ms."""
+    page.set("select", "neo_hooke")
+    page.until("return document.querySelector('[data-parameter=mu]') && document.querySelector('svg .line[d]')")
+    line = "return document.querySelector('svg .line').getAttribute('d')"
+    before = page.browser.run(line)
+    page.browser.run("""window.tunicaFrames = []; const n = document.querySelector('[data-parameter=mu]');
+      let at = 300; const move = () => { n.value = at; n.dispatchEvent(new Event('input')); if ((at += 8) < 640) setTimeout(move, 16); }; move();""")
+    page.until("return tunicaFrames.length >= 20")
+    page.until("return !document.body.innerText.includes('misses by –')")
+    assert page.browser.run(line) != before, "the curve does not follow the slider"
+    page.picture("material")
+    return page.browser.run("return tunicaFrames")
+
+
+def fit(page):
+    page.click("Next: fit")
+    page.see("as the file says: neo_hooke/lm")
+    page.set("input[type=number]", "3000")
+    page.click("Fit")
+    page.see("What came out")
+    page.until("return document.querySelectorAll('.live svg .line').length === 2")
+    page.see("neo_hooke/es")
+    page.picture("fit")
+
+
+def diagnose(page, folder):
+    page.click("Find out what is wrong")
+    page.click("Diagnose")
+    page.see("What was found")
+    page.see("In a shell: tunica diagnose strip.json")
+    page.until("return document.querySelectorAll('svg .bar').length >= 2")
+    page.picture("causes")
+    page.click("Accept")
+    page.see("What came out")
+    assert list(folder.glob("results/strip-diagnosis-1-extended-fit-1/result.json"))
+
+
+def compare_and_take_away(page, folder, host):
+    page.go("history")
+    depths = page.browser.run("return [...document.querySelectorAll('tbody tr')].map((r) => [r.children[1].className, r.children[1].innerText, r.children[2].innerText])")
+    assert [depth for depth, *_ in depths] == ["depth0", "depth1", "depth1", "depth2", "depth3"], depths
+    misses = [text for _, name, text in depths if "fit-1" in name]
+    assert "%" in misses[0] and misses[0] != misses[1], f"the extended model misses as its parent does: {misses}"
+    page.picture("history")
+    page.browser.run("document.querySelectorAll('tbody input').forEach((box) => box.click())")
+    page.click("Compare those")
+    page.see("Open comparison.html")
+    page.go("fit", "strip.json")
+    page.see("Write the card")
+    page.click("Write the card")
+    page.see("Save cards/strip-fit-1-febio.feb")
+    assert "<material" in (folder / "cards/strip-fit-1-febio.feb").read_text()
+    for words in ("Report", "fit_strip.csv", "In Python"):
+        page.see(words)
+    page.check_quiet(host)
+    report = page.browser.run("return [...document.querySelectorAll('a')].find((a) => a.textContent.startsWith('Report')).href")
+    page.browser.call("POST", page.browser.session + "/url", {"url": report})
+    page.until("return document.documentElement.dataset.drawn")
+    assert page.browser.run("return document.documentElement.dataset.failed") == "0"
+    assert page.browser.run("return window.origin") == "null", "a report is shown with the origin of the page"
+
+
+def nothing_acts(page, folder, studio):
+    (folder / f"{MARKUP}.csv").write_text(f"{MARKUP} [N];displacement [mm]\n" + "".join(f"{k};{k}\n" for k in range(9)))
+    (folder / f"{MARKUP}.json").write_text('{"format": 1, "models": {}, "tests": {}}')
+    page.open(studio.address)
+    page.see(MARKUP)
+    page.click(f"{MARKUP}.csv")
+    page.see("Columns")
+    page.see(f"{MARKUP}.csv")
+    page.go("")
+    page.click(f"{MARKUP}.json")
+    page.until("return document.querySelector('.box.bad')")
+    assert page.browser.run("return window.hacked === undefined && !document.querySelector('img')"), "a name has acted"
+
+
+def every_page_narrow_and_dark(page, examples=("fit", "causes", "work")):
+    page.browser.look(400, "dark")
+    assert page.browser.run("return getComputedStyle(document.body).backgroundColor") == "rgb(22, 25, 29)"
+    for kind, name in (("", ""), ("history", ""), ("data", "strip.txt"), *((kind, "strip.json") for kind in examples)):
+        page.go(kind, name)
+        time.sleep(0.3)
+        page.check_fits(400)
+        page.check_named()
+        page.picture(f"narrow_{kind or 'start'}")
+    page.browser.look(1280, "light")
+
+
+def killed_and_taken_up(options, folder, downloads):
+    with Studio(options.tunica, folder) as studio, Browser(downloads) as browser:
+        page = Page(browser)
+        page.open(studio.address)
+        page.go("fit", "slow.json")
+        page.click("Fit")
+        page.until("const n = document.querySelector('.live')?.innerText.match(/([\\d,]+) evaluations/); return n && Number(n[1].replace(',', '')) > 100")
+        studio.process.send_signal(signal.SIGKILL)
+    with Studio(options.tunica, folder) as studio, Browser(downloads) as browser:
+        page = Page(browser)
+        page.open(studio.address)
+        page.see("Running and interrupted")
+        page.click("Resume")
+        page.see("What came out")
+        assert (folder / "results/slow-fit-1/result.json").exists() and not (folder / "results/slow-fit-2").exists()
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--tunica", required=True)
+    parser.add_argument("--source", type=pathlib.Path, required=True)
+    parser.add_argument("--output", type=pathlib.Path, required=True)
+    parser.add_argument("--pictures", action="store_true", help="keep a picture of every page, for people")
+    options = parser.parse_args()
+    if not available():
+        print("skipped: no browser; apt-get install chromium chromium-driver")
+        return 77
+    output = options.output.resolve()
+    shutil.rmtree(output, ignore_errors=True)
+    folder, downloads, pictures = (output / name for name in ("rubber", "downloads", "pictures"))
+    for place in (folder, downloads, pictures):
+        place.mkdir(parents=True)
+    raw = output / "strip.txt"
+    raw.write_bytes(rig_file())
+    with Studio(options.tunica, folder) as studio:
+        with Browser(downloads) as browser:
+            page = Page(browser, pictures if options.pictures else None)
+            browser.look(1280, "light")
+            page.open(studio.address)
+            assert "token" not in browser.run("return location.href"), "the token stays in the address"
+            assert browser.run("return document.cookie") == "", "scripts can read the cookie"
+            page.picture("start")
+            import_rig_file(page, raw)
+            frames = move_sliders(page)
+            print(f"from a slider to its frame: {statistics.median(frames):.1f} ms, at most {max(frames):.1f} ms, {len(frames)} frames")
+            fit(page)
+            diagnose(page, folder)
+            compare_and_take_away(page, folder, studio.host)
+        with Browser(downloads) as browser:  # another browser, the same state
+            page = Page(browser, pictures if options.pictures else None)
+            page.open(studio.address)
+            page.see("strip-diagnosis-1-extended-fit-1")
+            page.go("fit", "strip.json")
+            page.see("What came out")
+            every_page_narrow_and_dark(page)
+            page.check_quiet(studio.host)
+            nothing_acts(page, folder, studio)
+    slow = output / "slow"
+    slow.mkdir()
+    slow_experiment(options.source, slow)
+    killed_and_taken_up(options, slow, downloads)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
