@@ -13,8 +13,10 @@ import urllib.error
 import urllib.request
 
 sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "browser"))
 from laboratory import Program, expect, run_cases
 from hostile_laboratory import expect_others_as_ever, honest_run, laboratory, outcome, root, timeless
+from studio_server import Studio
 
 
 def a_model_that_always_fails_costs_its_own_run():
@@ -287,6 +289,22 @@ def a_server_outlives_its_plugins():
         expect(server.returncode == 0, f"{how}: the server ends with {server.returncode}")
 
 
+def a_studio_outlives_its_plugins():
+    """The page, its address and its cookie stay."""
+    for how in ("segfaults", "exits_at_once"):
+        folder, tunica = laboratory(f"studio_{how}", how, since=700)
+        with Studio(tunica.words[0], folder, *tunica.words[1:]) as studio:
+            def simulated(value):
+                return studio.post("/api/simulate", {"file": "experiment.json", "run": "bad/lm", "values": [value]})
+            status, before = simulated(12)
+            expect(status == 200, f"{how}: {before}")
+            status, said = simulated(800)
+            expect(status == 500 and "plugin 'hostile 1.0.0'" in str(said), f"{how}: {status} {said}")
+            status, after = simulated(12)
+            expect(status == 200 and after["channels"] == before["channels"], f"{how}: {status} {after}")
+        expect(studio.process.returncode == 0, f"{how}: the studio ends with {studio.process.returncode}")
+
+
 def what_a_fresh_process_refutes_is_no_result():
     """The search has seen half the stress for nearly all of its calls; a fresh process sees the whole."""
     folder, tunica = laboratory("refuted", "tires", search="es", max_evaluations=2000)
@@ -365,6 +383,6 @@ cases = [a_model_that_always_fails_costs_its_own_run, a_model_that_always_fails_
            two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
            a_full_disk_at_the_other_end_is_told_and_harms_nothing, what_a_plugin_forks_is_ended_and_holds_no_lock,
            timers_that_a_plugin_sets_end_nothing, a_journal_that_a_plugin_loses_is_told,
-           objects_have_a_limit_of_time_too, a_destructor_that_crashes_costs_nothing, a_server_outlives_its_plugins]
+           objects_have_a_limit_of_time_too, a_destructor_that_crashes_costs_nothing, a_server_outlives_its_plugins, a_studio_outlives_its_plugins]
 run_cases([case for case in cases if not chosen or case.__name__ in chosen])
 shutil.rmtree(root, ignore_errors=True)

@@ -12,6 +12,7 @@
 #include "assembly/quality.hpp"
 #include "calibration/examination.hpp"
 #include "check.hpp"
+#include "comparison/stability_report.hpp"
 #include "data/nearest.hpp"
 #include "execution/files.hpp"
 #include "execution/plan.hpp"
@@ -110,6 +111,13 @@ void refuse_programs(const experiment::Experiment& experiment) {
           "test '{}' starts a program or asks a server, which a slider does not; fit it instead", test.name));
 }
 
+void refuse_other_count(const std::vector<double>& values, const assembly::Assembly& assembly) {
+  const std::size_t count = assembly.layout().parameters.size();
+  if (values.size() != count)
+    throw InputError(
+        fmt::format("{} values were given for {} parameters; load the page again", values.size(), count));
+}
+
 }  // namespace
 
 Workbench::Workbench(const Session& session) : session_(session) {}
@@ -193,9 +201,7 @@ json Workbench::simulate(const std::string& name, const std::string& label, cons
   const auto open = opened(name);
   const auto& run = run_of(open->plan, label);
   const auto& layout = run.assembly->layout();
-  if (values.size() != layout.parameters.size())
-    throw InputError(fmt::format("{} values were given for {} parameters; load the page again", values.size(),
-                                 layout.parameters.size()));
+  refuse_other_count(values, *run.assembly);
   const auto begin = std::chrono::steady_clock::now();
   try {
     const serving::ServedRun served(*run.assembly);
@@ -224,6 +230,19 @@ json Workbench::simulate(const std::string& name, const std::string& label, cons
   } catch (const serving::ModelFailure& failure) {
     return {{"failed", failure.what()}};
   }
+}
+
+json Workbench::stability(const std::string& name, const std::string& label, const std::vector<double>& values) {
+  const auto open = opened(name);
+  const auto& run = run_of(open->plan, label);
+  refuse_other_count(values, *run.assembly);
+  const auto found = comparison::stability_of(*run.assembly, values, {});
+  json sentences = json::array();
+  for (const auto& model : found.models)
+    for (const auto& sentence : model.verdict.sentences())
+      sentences.push_back(found.models.size() > 1 ? fmt::format("{}: {}", model.name, sentence) : sentence);
+  const auto stable = found.transversely_stable();
+  return {{"stable", stable ? json(*stable) : json(nullptr)}, {"sentences", std::move(sentences)}};
 }
 
 json Workbench::check(const std::string& name) {

@@ -35,6 +35,9 @@ class Workbench {
   /// [[y]], "objective", "quality": [{rmse, r2, share}], "milliseconds"}, or {"failed": reason}. `share` is RMSE over
   /// the range of the observable. Throws InputError.
   nlohmann::ordered_json simulate(const std::string& file, const std::string& label, const std::vector<double>& values);
+  /// Whether a material is stable at these values, as `tunica stability` judges: {"stable": true, false or null,
+  /// "sentences"}. Throws InputError.
+  nlohmann::ordered_json stability(const std::string& file, const std::string& label, const std::vector<double>& values);
   /// As `tunica check --json`. Throws InputError.
   nlohmann::ordered_json check(const std::string& file);
 

@@ -20,6 +20,9 @@ function fill(node, attributes, children) {
 export const el = (tag, attributes = {}, ...children) => fill(document.createElement(tag), attributes, children);
 export const draw = (tag, attributes = {}, ...children) => fill(document.createElementNS(svg, tag), attributes, children);
 
+/** For screen readers only. */
+export const unseen = (words) => el("span", { class: "unseen" }, words);
+
 let ids = 0;
 export const newId = () => `e${++ids}`;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Optimisers by one click, the objective as it falls, and what came out.
 import { chart } from "./chart.js";
-import { attempt, check, el, panel, problem, put } from "./dom.js";
+import { attempt, check, el, panel, problem, put, unseen } from "./dom.js";
 import { setRuns } from "./edits.js";
 import { newest, reportLink, watchJob } from "./jobs.js";
 import { ask, project, result, view } from "./server.js";
@@ -9,9 +9,9 @@ import { axis, number, percent, plain, unit } from "./words.js";
 
 const known = { lm: ["Levenberg–Marquardt, 20 starts", { type: "ceres_lm", starts: 20 }], es: ["Evolution strategy", { type: "es" }] };
 
-function parameterTable(parameters) {
-  return el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Parameters" }, el("table", {}, el("thead", {}, el("tr", {},
-    el("th", { scope: "col" }, "Parameter"), el("th", { scope: "col", class: "n" }, "Value"), el("th", { scope: "col", class: "n" }, "95 % interval"), el("th", { scope: "col" }, ""))),
+function parameterTable(run, parameters) {
+  return el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `Parameters of ${run}` }, el("table", {}, el("thead", {}, el("tr", {},
+    el("th", { scope: "col" }, "Parameter"), el("th", { scope: "col", class: "n" }, "Value"), el("th", { scope: "col", class: "n" }, "95 % interval"), el("th", { scope: "col" }, unseen("Bound")))),
     el("tbody", {}, Object.entries(parameters ?? {}).map(([name, one]) => el("tr", {}, el("th", { scope: "row" }, name), el("td", { class: "n" }, `${number(one.value, 5)}${unit(one.unit)}`),
       el("td", { class: "n" }, one.ci95 ? `${number(one.ci95[0])} … ${number(one.ci95[1])}` : "–"), el("td", {}, one.at_bound ? el("span", { class: "tag bad" }, "at its bound") : ""))))));
 }
@@ -46,7 +46,7 @@ export async function outcome(folder, name) {
   for (const run of document.runs) {
     const size = run.best?.misfit_size;
     parts.push(el("h3", {}, run.run, " ", run.best?.stable === false ? el("span", { class: "tag bad" }, "unstable") : ""), el("p", {}, size ? [size.rms === 0 ? el("span", { class: "big" }, "nothing but noise is missed") : [el("span", { class: "big" }, percent(size.rms)), " of the range is missed beyond noise"]] : "", ` · objective ${number(run.best?.objective, 6)} · ${run.evaluations} evaluations · ${number(run.seconds, 2)} s`),
-      el("p", { class: "muted" }, run.ending), run.best ? parameterTable(run.best.parameters) : "");
+      el("p", { class: "muted" }, run.ending), run.best ? parameterTable(run.run, run.best.parameters) : "");
   }
   const first = document.ranking?.find((one) => one.rank === 1)?.run ?? document.runs[0]?.run, best = document.runs.find((run) => run.run === first)?.best;
   const curves = el("div", { class: "two" });

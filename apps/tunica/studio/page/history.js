@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What was tried, as a tree: an experiment, its results, what they led to.
-import { add, attempt, el, panel, put } from "./dom.js";
+import { add, attempt, el, panel, put, unseen } from "./dom.js";
 import { outcome } from "./fit.js";
 import { jobLine, reportLink, watchJob } from "./jobs.js";
 import { ask, view } from "./server.js";
@@ -52,7 +52,7 @@ export async function historyPage(place, all) {
     const job = await ask("start", { verb: "report", folders }), file = job.command.match(/-o ('[^']*'|\S+)$/)[1].replaceAll("'", "");
     watchJob(below, job, (last) => last.state === "done" && below.prepend(el("p", {}, el("a", { class: "button", href: view(file), target: "_blank", rel: "noopener" }, `Open ${file}`))));
   }) }, "Compare those that are ticked");
-  add(place, el("h1", {}, "History"), rows.length ? panel("What was tried", el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "What was tried" }, el("table", {}, el("thead", {}, el("tr", {},
-    ["", "Experiment and results", "Misses", "What it found", "When", ""].map((text) => el("th", { scope: "col" }, text)))), el("tbody", {}, rows.map(line)))), el("div", { class: "row" }, compare)) : el("p", { class: "muted" }, "Nothing yet."), below,
+  add(place, el("h1", {}, "History"), rows.length ? panel("What was tried", el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Tree of experiments and results" }, el("table", {}, el("thead", {}, el("tr", {},
+    [unseen("Compare"), "Experiment and results", "Misses", "What it found", "When", unseen("Files")].map((text) => el("th", { scope: "col" }, text)))), el("tbody", {}, rows.map(line)))), el("div", { class: "row" }, compare)) : el("p", { class: "muted" }, "Nothing yet."), below,
     all.jobs.length ? el("details", { class: "panel" }, el("summary", {}, "Every job, as a command"), el("ul", { class: "plain" }, all.jobs.map(jobLine))) : "");
 }

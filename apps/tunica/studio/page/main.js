@@ -14,7 +14,7 @@ const steps = [["work", "Material"], ["fit", "Fit"], ["causes", "What is wrong"]
 let leave = null;
 
 function stepsOf(kind, name) {
-  if (kind === "data") return el("ol", { class: "steps" }, el("li", {}, el("a", { href: location.hash, "aria-current": "step" }, el("b", {}, "1"), "Data")));
+  if (kind === "data") return el("nav", { "aria-label": "Steps" }, el("ol", { class: "steps" }, el("li", {}, el("a", { href: location.hash, "aria-current": "step" }, el("b", {}, "1"), "Data"))));
   if (!name || kind === "history") return "";
   return el("nav", { "aria-label": "Steps" }, el("ol", { class: "steps" }, steps.map(([step, title], k) =>
     el("li", {}, el("a", { href: `#/${step}/${encodeURIComponent(name)}`, "aria-current": step === kind ? "step" : null }, el("b", {}, k + 2), title))),

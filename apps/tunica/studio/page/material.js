@@ -4,7 +4,7 @@ import { chart } from "./chart.js";
 import { add, attempt, check, choice, el, field, notice, panel, problem, put, shell } from "./dom.js";
 import { setModel, setParameters, setTests } from "./edits.js";
 import { ask } from "./server.js";
-import { latest, sliders } from "./sliders.js";
+import { latest, rested, sliders } from "./sliders.js";
 import { axis, number, percent, plain, quoted, unit } from "./words.js";
 
 const to = (kind, name) => `#/${kind}/${encodeURIComponent(name)}`;
@@ -83,7 +83,7 @@ export async function materialPage(place, all, name) {
   add(below, choose, body);
   function show(chosen) {
     run = chosen;
-    const charts = pictures(run), quality = el("div", { class: "row", role: "status" }), failed = el("div");
+    const charts = pictures(run), quality = el("div", { class: "row", role: "status" }), failed = el("div"), stable = el("div", { class: "row", role: "status" });
     const shown = (answer, milliseconds) => {
       put(failed, answer.failed ? problem(answer.failed) : "");
       if (answer.failed) return;
@@ -93,8 +93,18 @@ export async function materialPage(place, all, name) {
       (window.tunicaFrames ??= []).push(milliseconds);
     };
     const simulate = latest((values) => ask("simulate", { file: name, run: run.label, values }), shown, (error) => failed.replaceChildren(problem(error.message)));
-    const knobs = sliders(run.parameters, simulate), saving = el("div");
-    simulate(knobs.values);
+    const judge = rested(async (values) => {
+      try {
+        const said = await ask("stability", { file: name, run: run.label, values });
+        put(stable, el("span", { class: `tag ${said.stable === false ? "bad" : said.stable ? "good" : ""}` }, said.stable === false ? "unstable" : said.stable ? "stable" : "not judged"),
+          el("details", {}, el("summary", {}, "Stability of the material"), el("ul", {}, said.sentences.map((line) => el("li", {}, line)))));
+      } catch (error) {
+        put(stable, el("small", {}, error.message));
+      }
+    });
+    const moved = (values) => { simulate(values); judge(values); };
+    const knobs = sliders(run.parameters, moved), saving = el("div");
+    moved(knobs.values);
     const keep = el("button", { onclick: () => attempt(saving, async () => {
       const changed = structuredClone(file.document);
       setParameters(changed, run.model, run.parameters, knobs.values);
@@ -105,7 +115,7 @@ export async function materialPage(place, all, name) {
         panel("Parameters", knobs.node, el("div", { class: "row" }, keep), saving,
           run.fixed.length ? el("p", {}, el("small", {}, "Held: ", run.fixed.map((one) => `${one.name} = ${number(one.value)}${unit(one.unit)}`).join(", "))) : "",
           shell(`tunica simulate ${quoted(name)} --model ${quoted(run.model)} -o predicted`))),
-      el("div", {}, panel("Curve over the data", charts.map((one) => one.node), quality, failed, el("div", { class: "row" }, el("a", { class: "button", href: to("fit", name) }, "Next: fit"))),
+      el("div", {}, panel("Curve over the data", charts.map((one) => one.node), quality, stable, failed, el("div", { class: "row" }, el("a", { class: "button", href: to("fit", name) }, "Next: fit"))),
         testsPanel(name, { tests: (file.document.runs ?? []).find((one) => one.model === run.model)?.tests ?? Object.keys(file.document.tests) }, file.document, open), checks, text(file))));
   }
   show(run);

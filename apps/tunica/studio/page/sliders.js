@@ -51,6 +51,12 @@ export function sliders(parameters, moved) {
   };
 }
 
+/** Calls `step(values)` once the values have rested for a while, ms. */
+export function rested(step, patience = 250) {
+  let timer = 0;
+  return (values) => { clearTimeout(timer); timer = setTimeout(() => step([...values]), patience); };
+}
+
 /** Calls `ask(values)` for the newest values only, one at a time, and `shown(answer, milliseconds)` in a frame. */
 export function latest(ask, shown, failed) {
   let wanted = null, busy = false;
