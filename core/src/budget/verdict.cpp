@@ -222,7 +222,8 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
   const diagnosis::Progress quiet;
   const diagnosis::Inquiry inquiry{measured, d.request, catalogue, quiet};
   std::vector<std::string> unseen;
-  if (const Contender& first = *decision.first.front(); decision.verdict == Verdict::leading && !first.term)
+  if (const Contender& first = *decision.first.front();  // a mistake of the file leads without being a mechanism
+      decision.verdict == Verdict::leading && catalogue.mechanisms().contains(first.id))
     unseen = diagnosis::unseen_rivals(inquiry, d.analysis.hypotheses, first.id);
   if (!unseen.empty()) decision.verdict = Verdict::indistinguishable;
   explanation.verdict = decision.verdict;
