@@ -90,6 +90,20 @@ def rig_file():
     return "\r\n".join(lines).encode()
 
 
+def mistaken_experiment(source, folder):
+    """Treloar's rubber, whose uniaxial stresses are said to be true ones and are nominal."""
+    tests = {}
+    for name, kind in (("uniaxial", {"type": "uniaxial", "direction": "circumferential"}), ("equibiaxial", {"type": "biaxial", "protocol": "equibiaxial"}),
+                       ("pure_shear", {"type": "biaxial", "protocol": "pure_shear"})):
+        (folder / f"{name}.csv").write_bytes((source / f"examples/treloar/{name}.csv").read_bytes())
+        tests[name] = {**kind, "data": {"file": f"{name}.csv", "columns": {"stretch": "stretch", "stress": "stress"}, "stress_measure": "first_piola_kirchhoff",
+                                        "noise": {"absolute": "0.02 MPa", "relative": "2 %"}}}
+    tests["uniaxial"]["data"]["stress_measure"] = "cauchy"
+    experiment = {"format": 1, "name": "mistaken", "seed": 1, "models": {"ogden": {"type": "ogden", "terms": 3}}, "tests": tests, "objective": "least_squares",
+                  "optimizers": {"lm": {"type": "ceres_lm", "starts": 20}}, "stop": {"max_evaluations": 5000}, "runs": [{"model": "ogden", "optimizer": "lm"}]}
+    (folder / "mistaken.json").write_text(json.dumps(experiment, indent=1))
+
+
 def slow_experiment(source, folder):
     """A fit that takes seconds, by finite elements; its files are copied from the examples."""
     example = source / "examples/cn_pressurisation"

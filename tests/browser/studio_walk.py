@@ -12,7 +12,7 @@ import time
 
 from browser import Browser, available
 from studio_page import Page
-from studio_server import Studio, rig_file, slow_experiment
+from studio_server import Studio, mistaken_experiment, rig_file, slow_experiment
 
 MARKUP = "<img src=x onerror=window.hacked=1>"
 
@@ -109,6 +109,17 @@ def nothing_acts(page, folder, studio):
     assert page.browser.run("return window.hacked === undefined && !document.querySelector('img')"), "a name has acted"
 
 
+def mistake_taken_back(page, folder):
+    """The file says true stresses and means nominal ones: the diagnosis offers it, and the copy fits."""
+    page.go("causes", "mistaken.json")
+    page.click("Diagnose")
+    page.see("are first Piola–Kirchhoff stresses, not Cauchy ones, this fits")
+    page.picture("mistake")
+    page.click("Take it so, and fit")
+    page.see("What came out")
+    assert '"cauchy"' in (folder / "mistaken.json").read_text() and '"cauchy"' not in (folder / "mistaken-2.json").read_text()
+
+
 def every_page_narrow_and_dark(page, examples=("fit", "causes", "work")):
     page.browser.look(400, "dark")
     assert page.browser.run("return getComputedStyle(document.body).backgroundColor") == "rgb(22, 25, 29)"
@@ -177,6 +188,8 @@ def main():
             page.see("What came out")
             every_page_narrow_and_dark(page)
             page.check_quiet(studio.host)
+            mistaken_experiment(options.source, folder)
+            mistake_taken_back(page, folder)
             nothing_acts(page, folder, studio)
     slow = output / "slow"
     slow.mkdir()

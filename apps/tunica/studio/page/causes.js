@@ -2,6 +2,7 @@
 // The diagnosis: budget, causes on the data, and accepting one.
 import { bars } from "./chart.js";
 import { add, attempt, check, el, panel, put, shell } from "./dom.js";
+import { mend } from "./edits.js";
 import { newest, reportLink, watchJob } from "./jobs.js";
 import { ask, project, result } from "./server.js";
 import { missed, number, percent, plain, quoted, unit, verdicts } from "./words.js";
@@ -13,7 +14,7 @@ function budgetOf(budget, model) {
   let before = budget.rms;
   const list = [{ name: `${plain(model)} alone`, share: budget.rms, note: missed(budget.rms), colour: 0 }];
   for (const step of budget.steps) {
-    list.push({ name: `+ ${plain(step.id)}`, from: step.rms, share: Math.max(before - step.rms, 0), note: `takes ${percent(before - step.rms)}, leaves ${missed(step.rms)}`, colour: groups[step.group] ?? 1 });
+    list.push({ name: `+ ${plain(step.id)}`, from: step.rms, share: Math.max(before - step.rms, 0), note: `−${percent(before - step.rms)} → ${missed(step.rms)}`, colour: groups[step.group] ?? 1 });
     before = step.rms;
   }
   return [bars("How much of the range is missed, and what takes it", list),
@@ -25,7 +26,17 @@ const cause = (one) => el("li", {}, el("div", {}, el("strong", {}, plain(one.id)
   one.amplitude ? el("span", {}, ` · ${one.amplitude.name} = ${number(one.amplitude.value)}${unit(one.amplitude.unit)}`, one.amplitude.ci95 ? ` (${number(one.amplitude.ci95[0])} … ${number(one.amplitude.ci95[1])})` : "") : "",
   el("p", {}, one.explanation)));
 
-const mistake = (one) => el("li", {}, el("div", {}, el("strong", {}, one.sentence), el("p", {}, el("small", {}, `${one.mend} · probability among mistakes of the file ${number(one.probability, 2)}`))));
+/** What the file may say that is not so, and how much better it fits then; |r|² of the base and with it. */
+function mistake(name, document, base, one) {
+  const changed = structuredClone(document), place = el("li", {}, el("div", {}, el("strong", {}, `If ${one.sentence}, this fits ${number(base / one.squares, 2)} times better`), el("p", {}, el("small", {}, one.mend))));
+  if (!mend(changed, one)) return place;
+  place.append(el("button", { onclick: () => attempt(place, async () => {
+    const { file } = await ask("save", { file: name, document: changed, as_new: true });
+    await ask("start", { verb: "run", experiment: file });
+    location.hash = `#/fit/${encodeURIComponent(file)}`;
+  }) }, "Take it so, and fit"));
+  return place;
+}
 
 /** A file that the diagnosis wrote, to go on with. */
 function accept(folder, entry, place) {
@@ -38,14 +49,16 @@ function accept(folder, entry, place) {
     mended ? "Take the file as mended, and diagnose again" : "Accept: fit the extended model"), el("a", { href: `#/work/${encodeURIComponent(file)}` }, file));
 }
 
-async function found(folder, entry) {
+async function found(folder, entry, name) {
   const { diagnosis, warnings } = await result(folder), place = el("div");
-  const likely = diagnosis.causes ?? [], mistakes = (diagnosis.file?.causes ?? []).filter(() => !["far", "not_looked_for"].includes(diagnosis.file.standing)).slice(0, 5);
-  add(place, el("p", { class: "verdict" }, verdicts[diagnosis.verdict] ?? diagnosis.verdict), (diagnosis.explanations ?? []).map((words) => el("p", {}, words)),
+  const likely = diagnosis.causes ?? [], base = diagnosis.base?.squares ?? 0;
+  const mistakes = (diagnosis.file?.causes ?? []).filter((one) => one.probability > 0.01 && base > 2 * one.squares).slice(0, 5);
+  const document = mistakes.length ? (await ask("document", { file: name })).document : null;
+  add(place, el("p", { class: "verdict" }, verdicts[diagnosis.verdict] ?? diagnosis.verdict), [...(diagnosis.reasons ?? []), ...(diagnosis.explanations ?? [])].map((words) => el("p", {}, words)),
     budgetOf(diagnosis.budget, diagnosis.base?.model ?? "the model"),
     diagnosis.admissibility?.where ? el("div", { class: "box bad" }, el("strong", {}, "Stability is lost: "), diagnosis.admissibility.where, diagnosis.admissibility.remedy ? `; ${plain(diagnosis.admissibility.remedy)} restores it` : "") : "",
     likely.length ? [el("h3", {}, "Causes"), el("ul", { class: "plain" }, likely.map(cause))] : "",
-    mistakes.length ? [el("h3", {}, "What the file may say that is not so"), el("ul", { class: "plain" }, mistakes.map(mistake))] : "",
+    mistakes.length ? [el("h3", {}, "What the file may say that is not so"), el("ul", { class: "plain" }, mistakes.map((one) => mistake(name, document, base, one)))] : "",
     (entry?.leads_to ?? []).map((one) => accept(folder, one, place)),
     diagnosis.next_experiment?.description ? [el("h3", {}, "Next experiment"), el("p", {}, diagnosis.next_experiment.description)] : "",
     warnings?.length ? el("details", {}, el("summary", {}, `${warnings.length} warnings`), el("ul", {}, warnings.map((line) => el("li", {}, line)))) : "",
@@ -59,7 +72,7 @@ export async function causesPage(place, all, name) {
   const quick = check("quick: a first answer in a second", false), discover = () => start("discover");
   async function finished(folder) {
     const { results } = await project(), entry = results.find((one) => one.folder === folder);
-    put(out, panel("What was found", entry?.kind === "diagnosis" ? await found(folder, entry) : [el("div", { class: "row" }, reportLink(folder)), (entry?.leads_to ?? []).map((one) => accept(folder, one, out))]));
+    put(out, panel("What was found", entry?.kind === "diagnosis" ? await found(folder, entry, name) : [el("div", { class: "row" }, reportLink(folder)), (entry?.leads_to ?? []).map((one) => accept(folder, one, out))]));
   }
   const watch = (job) => {
     leave?.();

@@ -3,7 +3,10 @@
 import { draw, el } from "./dom.js";
 import { number } from "./words.js";
 
-const size = { width: 640, height: 380, left: 66, right: 14, top: 12, bottom: 46 };
+/** On a narrow screen the picture is smaller, so that its words are not. */
+const wide = () => (innerWidth < 600 ? 400 : 640);
+let clips = 0;
+const size = { height: 380, left: 66, right: 14, top: 12, bottom: 46 };
 
 function extent(lists, log) {
   let low = Infinity, high = -Infinity;
@@ -33,11 +36,12 @@ function ticks([low, high], log) {
  * rescale()}: set() moves a series within the axes as they are.
  */
 export function chart({ title, note = "", x, y, series, logY = false, height = size.height }) {
-  const box = { ...size, height };
-  const plot = draw("g"), axes = draw("g");
-  const picture = draw("svg", { class: "chart", viewBox: `0 0 ${box.width} ${box.height}`, role: "img", "aria-label": `${title}: ${y} over ${x}` }, axes, plot);
+  const box = { ...size, width: wide(), height: Math.min(height, wide()) }, clip = `clip${++clips}`;
+  const plot = draw("g", { "clip-path": `url(#${clip})` }), axes = draw("g");
+  const picture = draw("svg", { class: "chart", viewBox: `0 0 ${box.width} ${box.height}`, role: "img", "aria-label": `${title}: ${y} over ${x}` }, draw("clipPath", { id: clip }, draw("rect", {
+    x: box.left - 4, y: box.top - 4, width: box.width - box.left - box.right + 8, height: box.height - box.top - box.bottom + 8 })), axes, plot);
   let scaleX, scaleY;
-  const marks = series.map((one) => draw(one.points ? "path" : "path", { class: `${one.points ? "point" : "line"} s${one.colour ?? 0}` }));
+  const marks = series.map((one) => draw("path", { class: `${one.points ? "point" : "line"} s${one.colour ?? 0}` }));
   plot.append(...marks);
 
   function path(one) {
@@ -88,12 +92,12 @@ export function chart({ title, note = "", x, y, series, logY = false, height = s
 
 /** Bars from zero, a share each: [{name, share, note, colour}]. */
 export function bars(title, list) {
-  const line = 34, width = 640, name = 230;
+  const line = 34, width = wide(), name = width > 500 ? 230 : 120;
   const picture = draw("svg", { class: "chart", viewBox: `0 0 ${width} ${line * list.length + 6}`, role: "img",
     "aria-label": `${title}: ${list.map((one) => `${one.name} ${one.note}`).join("; ")}` });
   const largest = Math.max(...list.map((one) => Math.max(one.share + (one.from ?? 0), 0)), 1e-12);
   list.forEach((one, k) => {
-    const scale = (width - name - 190) / largest, from = name + (one.from ?? 0) * scale, long = Math.max(one.share * scale, 2);
+    const scale = (width - name - (width > 500 ? 190 : 150)) / largest, from = name + (one.from ?? 0) * scale, long = Math.max(one.share * scale, 2);
     picture.append(draw("text", { x: name - 10, y: k * line + 22, "text-anchor": "end" }, one.name),
       draw("rect", { class: `bar s${one.colour ?? 1}`, x: from, y: k * line + 6, width: long, height: line - 12, rx: 3 }),
       draw("text", { x: from + long + 8, y: k * line + 22 }, one.note));

@@ -41,6 +41,19 @@ export function setTests(document, used, heldOut, weights) {
   }
 }
 
+/** What a cause of the group "file" says instead, as its `mend` has it; false where that is no key of the data. */
+export function mend(document, cause) {
+  const [, measure] = cause.mend.match(/^"stress_measure": "(\w+)"/) ?? [];
+  if (measure) {
+    for (const test of cause.tests) document.tests[test].data.stress_measure = measure;
+    return true;
+  }
+  const [, mechanisms] = cause.mend.match(/^"mechanisms": (\[.*?\]) into/) ?? [];
+  if (!mechanisms) return false;
+  for (const test of cause.tests) document.tests[test].mechanisms = [...(document.tests[test].mechanisms ?? []), ...JSON.parse(mechanisms)];
+  return true;
+}
+
 /** The runs of `model` become one for each optimiser, at one budget. */
 export function setRuns(document, model, optimizers, budget) {
   const first = (document.runs ?? []).find((run) => run.model === model) ?? { model };

@@ -67,7 +67,9 @@ async function checked(place, name) {
 
 export async function materialPage(place, all, name) {
   const [file, catalogue] = await Promise.all([ask("document", { file: name }), ask("catalogue")]);
+  let gone = false;
   const open = ({ file: saved }) => {
+    gone = true;
     if (saved !== name) notice(`${name} stays as it is; the change is in ${saved}`);
     if (saved === name) dispatchEvent(new HashChangeEvent("hashchange")); else location.hash = to("work", saved);
   };
@@ -94,6 +96,7 @@ export async function materialPage(place, all, name) {
     };
     const simulate = latest((values) => ask("simulate", { file: name, run: run.label, values }), shown, (error) => failed.replaceChildren(problem(error.message)));
     const judge = rested(async (values) => {
+      if (gone) return;
       try {
         const said = await ask("stability", { file: name, run: run.label, values });
         put(stable, el("span", { class: `tag ${said.stable === false ? "bad" : said.stable ? "good" : ""}` }, said.stable === false ? "unstable" : said.stable ? "stable" : "not judged"),
@@ -102,7 +105,7 @@ export async function materialPage(place, all, name) {
         put(stable, el("small", {}, error.message));
       }
     });
-    const moved = (values) => { simulate(values); judge(values); };
+    const moved = (values) => { if (!gone) simulate(values); judge(values); };
     const knobs = sliders(run.parameters, moved), saving = el("div");
     moved(knobs.values);
     const keep = el("button", { onclick: () => attempt(saving, async () => {
@@ -119,6 +122,7 @@ export async function materialPage(place, all, name) {
         testsPanel(name, { tests: (file.document.runs ?? []).find((one) => one.model === run.model)?.tests ?? Object.keys(file.document.tests) }, file.document, open), checks, text(file))));
   }
   show(run);
+  return () => (gone = true);
 }
 
 const text = (file) => el("details", { class: "panel" }, el("summary", {}, "The experiment file"), el("pre", {}, file.text));
