@@ -128,7 +128,7 @@ json Desk::asked(const WebRequest& request) {
   if (path == "/api/problem") return workbench_.problem(text("file"));
   if (path == "/api/check") return workbench_.check(text("file"));
   if (path == "/api/simulate") return workbench_.simulate(text("file"), text("run"), question.at("values"));
-  if (path == "/api/stability") return workbench_.stability(text("file"), text("run"), question.at("values"));
+  if (path == "/api/judge") return workbench_.judge(text("file"), text("run"), question.at("values"));
   if (path == "/api/start") return jobs_.start(question);
   if (path == "/api/stop") {
     jobs_.stop(text("id"));

@@ -37,7 +37,7 @@ struct Workbench::Open {
 
 namespace {
 
-constexpr std::size_t most_rows = 1500;
+constexpr std::size_t most_rows = 1500, most_while_moving = 5000;
 
 /// Row numbers of a channel that are shown: all, or evenly chosen ones with the last.
 std::vector<std::size_t> shown_rows(std::size_t count) {
@@ -114,8 +114,7 @@ void refuse_programs(const experiment::Experiment& experiment) {
 void refuse_other_count(const std::vector<double>& values, const assembly::Assembly& assembly) {
   const std::size_t count = assembly.layout().parameters.size();
   if (values.size() != count)
-    throw InputError(
-        fmt::format("{} values were given for {} parameters; load the page again", values.size(), count));
+    throw InputError(fmt::format("{} values were given for {} parameters; load the page again", values.size(), count));
 }
 
 }  // namespace
@@ -205,9 +204,10 @@ json Workbench::simulate(const std::string& name, const std::string& label, cons
   const auto begin = std::chrono::steady_clock::now();
   try {
     const serving::ServedRun served(*run.assembly);
-    const auto objective = served.values(serving::ServedRun::Function::objective, values).front().front();
     const auto predictions = served.values(serving::ServedRun::Function::predictions, values);
-    json answer = {{"channels", json::array()}, {"objective", objective}, {"quality", json::array()}};
+    json answer = {{"channels", json::array()}, {"objective", nullptr}, {"quality", json::array()}};
+    if (layout.prediction_count <= most_while_moving)  // else it would cost the frame
+      answer["objective"] = served.values(serving::ServedRun::Function::objective, values).front().front();
     std::vector<double> all;
     for (const auto& channel : predictions) {
       answer["channels"].push_back(chosen(channel, shown_rows(channel.size())));
@@ -232,7 +232,7 @@ json Workbench::simulate(const std::string& name, const std::string& label, cons
   }
 }
 
-json Workbench::stability(const std::string& name, const std::string& label, const std::vector<double>& values) {
+json Workbench::judge(const std::string& name, const std::string& label, const std::vector<double>& values) {
   const auto open = opened(name);
   const auto& run = run_of(open->plan, label);
   refuse_other_count(values, *run.assembly);
@@ -242,7 +242,15 @@ json Workbench::stability(const std::string& name, const std::string& label, con
     for (const auto& sentence : model.verdict.sentences())
       sentences.push_back(found.models.size() > 1 ? fmt::format("{}: {}", model.name, sentence) : sentence);
   const auto stable = found.transversely_stable();
-  return {{"stable", stable ? json(*stable) : json(nullptr)}, {"sentences", std::move(sentences)}};
+  json objective = nullptr;
+  try {
+    const serving::ServedRun served(*run.assembly);
+    objective = served.values(serving::ServedRun::Function::objective, values).front().front();
+  } catch (const serving::ModelFailure&) {  // simulate() says why
+  }
+  return {{"stable", stable ? json(*stable) : json(nullptr)},
+          {"sentences", std::move(sentences)},
+          {"objective", std::move(objective)}};
 }
 
 json Workbench::check(const std::string& name) {

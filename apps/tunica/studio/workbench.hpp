@@ -32,12 +32,12 @@ class Workbench {
   nlohmann::ordered_json problem(const std::string& file);
   /// What a run predicts at values of its free parameters, in base units, at the rows that problem() gives:
   /// {"channels":
-  /// [[y]], "objective", "quality": [{rmse, r2, share}], "milliseconds"}, or {"failed": reason}. `share` is RMSE over
-  /// the range of the observable. Throws InputError.
+  /// [[y]], "objective", "quality": [{rmse, r2, share}], "milliseconds"}, or {"failed": reason}. The objective of many
+  /// rows is null, see judge(). `share` is RMSE over the range of the observable. Throws InputError.
   nlohmann::ordered_json simulate(const std::string& file, const std::string& label, const std::vector<double>& values);
-  /// Whether a material is stable at these values, as `tunica stability` judges: {"stable": true, false or null,
-  /// "sentences"}. Throws InputError.
-  nlohmann::ordered_json stability(const std::string& file, const std::string& label, const std::vector<double>& values);
+  /// What is asked where the values rest: whether a material is stable there, as `tunica stability` judges, and the
+  /// objective: {"stable": true, false or null, "sentences", "objective"}. Throws InputError.
+  nlohmann::ordered_json judge(const std::string& file, const std::string& label, const std::vector<double>& values);
   /// As `tunica check --json`. Throws InputError.
   nlohmann::ordered_json check(const std::string& file);
 

@@ -85,12 +85,13 @@ export async function materialPage(place, all, name) {
   add(below, choose, body);
   function show(chosen) {
     run = chosen;
-    const charts = pictures(run), quality = el("div", { class: "row", role: "status" }), failed = el("div"), stable = el("div", { class: "row", role: "status" });
+    const charts = pictures(run), quality = el("div", { class: "row", role: "status" }), failed = el("div"), stable = el("div", { class: "row", role: "status" }), objective = el("strong");
     const shown = (answer, milliseconds) => {
       put(failed, answer.failed ? problem(answer.failed) : "");
       if (answer.failed) return;
       answer.channels.forEach((values, k) => charts[k].set(1, values));
-      put(quality, el("span", {}, "objective ", el("strong", {}, number(answer.objective, 5))), ...answer.quality.map((one, k) => one
+      objective.textContent = answer.objective === null ? "…" : number(answer.objective, 5);
+      put(quality, el("span", {}, "objective ", objective), ...answer.quality.map((one, k) => one
         ? el("span", {}, plain(run.channels[k].test), " misses by ", el("strong", {}, percent(one.share)), ` of the range (RMSE ${number(one.rmse, 3)}${unit(run.channels[k].unit)})`) : ""));
       (window.tunicaFrames ??= []).push(milliseconds);
     };
@@ -98,7 +99,8 @@ export async function materialPage(place, all, name) {
     const judge = rested(async (values) => {
       if (gone) return;
       try {
-        const said = await ask("stability", { file: name, run: run.label, values });
+        const said = await ask("judge", { file: name, run: run.label, values });
+        objective.textContent = number(said.objective, 5);
         put(stable, el("span", { class: `tag ${said.stable === false ? "bad" : said.stable ? "good" : ""}` }, said.stable === false ? "unstable" : said.stable ? "stable" : "not judged"),
           el("details", {}, el("summary", {}, "Stability of the material"), el("ul", {}, said.sentences.map((line) => el("li", {}, line)))));
       } catch (error) {
