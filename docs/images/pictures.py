@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """pictures.py TUNICA: makes the pictures of the pages again.
 
-Runs docs/getting-started.md, examples/plate and a diagnosis of examples/hidden_effect with TUNICA, opens the reports in headless Chromium,
+Runs docs/getting-started.md, examples/plate, a diagnosis of examples/hidden_effect and the walk of the studio with TUNICA, opens the reports in headless Chromium,
 and reduces each picture to 64 colours with ImageMagick (Debian: chromium, imagemagick)."""
 import pathlib
 import subprocess
@@ -30,3 +30,10 @@ with tempfile.TemporaryDirectory() as folder:
                         report.as_uri()], check=True, stderr=subprocess.DEVNULL)
         subprocess.run(["convert", here / name, "-colors", "64", "-define", "png:compression-level=9", here / name], check=True)
         print(here / name)
+    subprocess.run([sys.executable, source / "tests/browser/studio_walk.py", "--tunica", sys.argv[1], "--source", source, "--output",
+                    pathlib.Path(folder) / "studio", "--pictures"], check=True)
+    for name in ("data", "material", "fit", "mistake"):
+        picture = here / f"studio-{name}.png"
+        subprocess.run(["convert", pathlib.Path(folder) / f"studio/pictures/{name}.png", "-colors", "64", "-define", "png:compression-level=9",
+                        picture], check=True)
+        print(picture)

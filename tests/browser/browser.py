@@ -90,8 +90,8 @@ class Browser:
     def pdf(self):
         return base64.b64decode(self.devtools("Page.printToPDF", printBackground=False, paperWidth=8.27, paperHeight=11.69)["data"])
 
-    def screenshot(self, file):
+    def screenshot(self, file, height=None, scale=1):
         size = self.devtools("Page.getLayoutMetrics")["cssContentSize"]
-        clip = {"x": 0, "y": 0, "width": size["width"], "height": min(size["height"], 12000), "scale": 1}
+        clip = {"x": 0, "y": 0, "width": size["width"], "height": min(size["height"], height or 12000), "scale": scale}
         picture = self.devtools("Page.captureScreenshot", format="png", captureBeyondViewport=True, clip=clip)
         file.write_bytes(base64.b64decode(picture["data"]))

@@ -47,11 +47,13 @@ class Page:
         identity = next(iter(element.values()))
         self.browser.call("POST", f"{self.browser.session}/element/{identity}/value", {"text": str(file)})
 
-    def picture(self, name):
-        if self.pictures:
-            time.sleep(0.3)
-            self.browser.run("document.getElementById('notice').textContent = ''")
-            self.browser.screenshot(self.pictures / f"{name}.png")
+    def picture(self, name, height=None):
+        """The whole page; with a height its upper part, 1000 pixels wide, as docs/studio.md has it."""
+        if not self.pictures:
+            return
+        time.sleep(0.6)
+        self.browser.run("document.getElementById('notice').textContent = ''")
+        self.browser.screenshot(self.pictures / f"{name}.png", height, 1000 / 1280 if height else 1)
 
     def check_fits(self, width):
         wide = self.browser.run("return document.documentElement.scrollWidth")

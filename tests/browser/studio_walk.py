@@ -27,7 +27,7 @@ def import_rig_file(page, file):
     page.see("stretch = 1 + displacement / 20 mm")
     page.until("return !document.body.innerText.includes('with example sizes')")
     page.see("tunica import strip.txt")
-    page.picture("data")
+    page.picture("data", 1110)
     page.click("Write the experiment")
     page.see("Curve over the data")
 
@@ -39,12 +39,15 @@ def move_sliders(page):
     line = "return document.querySelector('svg .line').getAttribute('d')"
     before = page.browser.run(line)
     page.browser.run("""window.tunicaFrames = []; const n = document.querySelector('[data-parameter=mu]');
-      let at = 300; const move = () => { n.value = at; n.dispatchEvent(new Event('input')); if ((at += 8) < 640) setTimeout(move, 16); }; move();""")
-    page.until("return tunicaFrames.length >= 20")
+      let at = 303; const move = () => { n.value = at; n.dispatchEvent(new Event('input')); if ((at += 8) < 640) setTimeout(move, 16); else n.dataset.moved = ""; }; move();""")
+    page.until("return tunicaFrames.length >= 10 && document.querySelector('[data-moved]')")
     page.until("return !document.body.innerText.includes('misses by –')")
     assert page.browser.run(line) != before, "the curve does not follow the slider"
-    page.picture("material")
-    return page.browser.run("return tunicaFrames")
+    frames = page.browser.run("return tunicaFrames")
+    page.set("[data-parameter=mu]", "565")
+    page.until("return document.querySelector('.tag')?.textContent === 'stable'")
+    page.picture("material", 780)
+    return frames
 
 
 def fit(page):
@@ -55,7 +58,7 @@ def fit(page):
     page.see("What came out")
     page.until("return document.querySelectorAll('.live svg .line').length === 2")
     page.see("neo_hooke/es")
-    page.picture("fit")
+    page.picture("fit", 1650)
 
 
 def diagnose(page, folder):
@@ -114,7 +117,7 @@ def mistake_taken_back(page, folder):
     page.go("causes", "mistaken.json")
     page.click("Diagnose")
     page.see("are first Piola–Kirchhoff stresses, not Cauchy ones, this fits")
-    page.picture("mistake")
+    page.picture("mistake", 1240)
     page.click("Take it so, and fit")
     page.see("What came out")
     assert '"cauchy"' in (folder / "mistaken.json").read_text() and '"cauchy"' not in (folder / "mistaken-2.json").read_text()

@@ -64,15 +64,14 @@ struct Form {
 
 /// "--unit 'Load=UNIT'" and "N" → {"--unit", "Load=N"}; where an option has two forms, the one that the answer names.
 std::vector<std::string> words_of(std::string option, const std::string& answer) {
-  for (auto other = option.find(" or --"); other != std::string::npos; other = option.find(" or --"))
-    option = option.find(answer + "=") > other ? option.substr(other + 4) : option.substr(0, other);
-  const auto space = option.find(' ');
-  if (space == std::string::npos) return {option, answer};
-  std::string value = option.substr(space + 1);
-  std::erase(value, '\'');
+  if (const auto second = option.find("--", 2); second != std::string::npos)
+    option = option.find(answer + "=", second) != std::string::npos ? option.substr(second) : option.substr(0, second);
+  const auto begin = option.find('\''), end = option.rfind('\'');
+  if (begin == std::string::npos || end == begin) return {option, answer};
+  std::string value = option.substr(begin + 1, end - begin - 1);
   const auto equals = value.rfind('=');
   if (equals != std::string::npos && value.substr(0, equals) != answer) value = value.substr(0, equals + 1) + answer;
-  return {option.substr(0, space), value};
+  return {option.substr(0, option.find(' ')), value};
 }
 
 Form form_of(const nlohmann::json& asked) {

@@ -114,7 +114,7 @@ void refuse_programs(const experiment::Experiment& experiment) {
 void refuse_other_count(const std::vector<double>& values, const assembly::Assembly& assembly) {
   const std::size_t count = assembly.layout().parameters.size();
   if (values.size() != count)
-    throw InputError(fmt::format("{} values were given for {} parameters; load the page again", values.size(), count));
+    throw InputError(fmt::format("the page gives {} values for {} parameters; load it again", values.size(), count));
 }
 
 }  // namespace
