@@ -105,10 +105,15 @@ def one_server_a_project(tunica, studio):
     assert found.returncode == 2 and "another `tunica studio`" in found.stderr, found.stderr
 
 
-def is_alive(words):
-    """Whether a process of this command line is there."""
-    return any(words in (process / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
-               for process in pathlib.Path("/proc").glob("[0-9]*") if (process / "cmdline").exists())
+def is_alive(words, folder):
+    """Whether a process of this command line works in the folder."""
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            if words in (process / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace") and (process / "cwd").resolve() == folder:
+                return True
+        except OSError:  # it has ended meanwhile
+            pass
+    return False
 
 
 def jobs_end_with_the_server_and_go_on_with_the_next(options, folder):
@@ -119,13 +124,14 @@ def jobs_end_with_the_server_and_go_on_with_the_next(options, folder):
         journal = folder / job["folder"] / "evaluations.csv"
         while not journal.exists() or journal.read_bytes().count(b"\n") < 200:
             time.sleep(0.02)
+        assert is_alive(job["folder"], folder)
         studio.process.send_signal(signal.SIGKILL)
         studio.process.wait()
         for _ in range(100):
-            if not is_alive(job["folder"]):
+            if not is_alive(job["folder"], folder):
                 break
             time.sleep(0.05)
-        assert not is_alive(job["folder"]), "the job goes on without its server"
+        assert not is_alive(job["folder"], folder), "the job goes on without its server"
         assert journal.read_bytes().count(b"\n") < 650, "the job was over before the server was ended"
     with Studio(options.tunica, folder) as studio:
         found = next(one for one in studio.ask("project")["jobs"] if one["id"] == job["id"])
