@@ -2,6 +2,7 @@
 """Who may ask `tunica studio`, and for what: token, Host, Origin, names of files, sizes, jobs that end with the server.
 Needs no browser."""
 import argparse
+import http.client
 import json
 import os
 import pathlib
@@ -139,6 +140,18 @@ def jobs_end_with_the_server_and_go_on_with_the_next(options, folder):
         again = studio.ask("start", verb="run", resume=job["id"])
         assert "--resume" in again["command"] and again["folder"] == job["folder"], again
         time.sleep(0.3)
+        listener = http.client.HTTPConnection("127.0.0.1", studio.port)
+        listener.request("GET", f"/api/events?name={again['id']}", headers={"Host": studio.host, "Cookie": studio.cookie})
+        first = listener.getresponse().read(200).decode()
+        assert first.startswith("retry:") and "event: progress" in first, first
+        studio.process.terminate()  # somebody listens, and a job runs
+        assert studio.process.wait(timeout=20) == 0
+        listener.close()
+    with Studio(options.tunica, folder) as studio:
+        found = next(one for one in studio.ask("project")["jobs"] if one["id"] == again["id"])
+        assert found["state"] == "stopped" and found["code"] == 130 and found["resumable"], found
+        again = studio.ask("start", verb="run", resume=again["id"])
+        time.sleep(0.2)
         studio.ask("stop", id=again["id"])
         stopped = studio.wait(again["id"])
         assert stopped["state"] == "stopped" and stopped["resumable"], stopped
@@ -148,7 +161,7 @@ def jobs_end_with_the_server_and_go_on_with_the_next(options, folder):
     run = [options.tunica, "run", "slow.json", "-o", str(straight), "--quiet"]
     assert subprocess.run(run, cwd=folder, capture_output=True, timeout=120).returncode in (0, 1)
     best = [json.loads((place / "result.json").read_text())["runs"][0]["best"] for place in (folder / job["folder"], straight)]
-    assert best[0]["objective"] == best[1]["objective"] and best[0]["parameters"] == best[1]["parameters"], "killed twice, and another result"
+    assert best[0]["objective"] == best[1]["objective"] and best[0]["parameters"] == best[1]["parameters"], "ended three times, and another result"
 
 
 def main():

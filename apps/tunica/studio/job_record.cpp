@@ -19,7 +19,7 @@ using json = nlohmann::ordered_json;
 namespace {
 
 fs::path folder_of_jobs() {
-  const fs::path place = own_place() / "jobs";
+  const fs::path place = execution::own_folder(own_place() / "jobs");
   if (!fs::is_directory(place)) execution::make_folder(place);
   return place;
 }

@@ -75,7 +75,7 @@ std::string state_of(const JobRecord& job, bool runs) {
 Jobs::Jobs(std::vector<std::string> plugins) : plugins_(std::move(plugins)), watch_([this] { watch(); }) {}
 
 Jobs::~Jobs() {
-  constexpr auto patience = 10s;
+  constexpr auto patience = 3s;  // less than the supervisor has with this process
   {
     const std::lock_guard lock(mutex_);
     for (const auto& [id, process] : running_) ::kill(process, SIGINT);
@@ -95,7 +95,8 @@ Jobs::~Jobs() {
 
 json Jobs::start(const nlohmann::json& request) {
   constexpr std::size_t most = 4;
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard one_at_a_time(starting_);
+  std::unique_lock lock(mutex_);
   if (running_.size() >= most)
     throw InputError(fmt::format("{} jobs are running already; wait for one, or stop it", most));
   JobRecord job = job_of(request);
@@ -104,17 +105,20 @@ json Jobs::start(const nlohmann::json& request) {
       throw InputError(fmt::format("a job writes to {} already; wait for it, or stop it", job.folder));
   job.id = next_job_id();
   job.started = now();
-  launch(job);
+  launch(job, lock);
   return entry(job);
 }
 
-void Jobs::launch(JobRecord& job) {
+void Jobs::launch(JobRecord& job, std::unique_lock<std::mutex>& lock) {
   auto words = job.words;
   words.insert(words.end(), plugins_.begin(), plugins_.end());
   job.words = words;
   write_record(job);
   const std::array files{opened(job.file(".out")), opened(job.file(".err"))};
-  const pid_t process = start_process(words, files[0], files[1]);
+  pid_t process = -1;
+  beginning_ = [&] { process = start_process(words, files[0], files[1]); };
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return !beginning_; });
   for (const int file : files) ::close(file);
   if (process < 0) throw InputError("the system starts no further process; end some, and try again");
   running_[job.id] = process;
@@ -184,8 +188,14 @@ void Jobs::finish(const std::string& id, int status) {
 }
 
 void Jobs::watch() {
-  for (;; std::this_thread::sleep_for(30ms)) {
-    const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait_for(lock, 30ms, [&] { return static_cast<bool>(beginning_); });
+    if (beginning_) {
+      beginning_();
+      beginning_ = nullptr;
+      changed_.notify_all();
+    }
     for (auto one = running_.begin(); one != running_.end();) {
       int status = 0;
       if (::waitpid(one->second, &status, WNOHANG) != one->second) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <condition_variable>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -39,14 +40,18 @@ class Jobs {
 
  private:
   nlohmann::ordered_json entry(const JobRecord& job) const;
-  void launch(JobRecord& job);
+  void launch(JobRecord& job, std::unique_lock<std::mutex>& lock);
   void watch();
   void finish(const std::string& id, int status);
   [[nodiscard]] JobRecord find(const std::string& id);
 
   const std::vector<std::string> plugins_;
-  std::mutex mutex_;
+  std::mutex starting_, mutex_;  ///< one start at a time; what is below
   std::map<std::string, pid_t> running_;
+  /// A process ends with the thread that has begun it (PR_SET_PDEATHSIG), and threads of the server end before the jobs
+  /// are asked to save: the watch begins them.
+  std::function<void()> beginning_;
+  std::condition_variable changed_;
   bool over_ = false;
   std::thread watch_;
 };

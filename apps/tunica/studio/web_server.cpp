@@ -46,11 +46,11 @@ void hand_over(WebReply&& reply, httplib::Response& response) {
 
 /// The library takes a server whose socket it has not opened for one that shuts down, and would send no stream. So this
 /// is written here, and the end of the connection is the end of the answer.
-void stream(const WebReply& reply, HttpConnection& connection) {
+void stream(const WebReply& reply, HttpConnection& connection, const std::function<bool()>& over) {
   std::string words = "HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\nConnection: close\r\n";
   for (const auto& [name, value] : reply.headers) words += name + ": " + value + "\r\n";
   words += "\r\n";
-  for (std::optional<std::string> more = ""; more; more = reply.events()) {
+  for (std::optional<std::string> more = ""; more && !over(); more = reply.events()) {
     words += *more;
     for (std::string_view left = words; !left.empty();) {
       const ssize_t count = connection.write(left.data(), left.size());
@@ -75,7 +75,7 @@ class Server final : public httplib::Server {
         const OpenRequest open(connection->socket());
         answer = service_.answer(request_of(request));
       }
-      if (answer.events) stream(answer, *connection);
+      if (answer.events) stream(answer, *connection, service_.over);
       hand_over(std::move(answer), response);
     };
     Get(".*", reply);
