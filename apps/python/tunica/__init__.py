@@ -20,6 +20,7 @@ from .errors import (EvaluationError, InputError, Interrupted, PluginFailure, St
 from .library import Experiment, describe, names, read, schema, use_plugins
 from .material import Material
 from .mechanisms import mechanism
+from .pages import Studio, studio
 from .problem import Evaluation, Problem
 from .results import Check, Diagnosis, Discovery, Estimate, Result, Run, Simulation
 from .rigs import Imported, import_rig
@@ -31,6 +32,6 @@ from .verbs import check, diagnose, discover, run, simulate
 
 __all__ = ["Check", "Cohort", "Diagnosis", "Discovery", "Energy", "Estimate", "Evaluation", "EvaluationError", "Experiment", "Imported",
            "InputError", "Interrupted", "Material", "Observable", "Parameter", "PluginFailure", "Problem", "Result", "Rows", "Run",
-           "Search", "Simulation", "StopSearch", "Strain", "Table", "TunicaError", "WriteFailure", "check", "cohort", "describe",
-           "diagnose", "discover", "export", "forget", "import_rig", "mechanism", "model", "names", "open", "optimizer", "read", "report", "run", "schema",
-           "simulate", "stability", "test", "use_plugins", "__version__"]
+           "Search", "Simulation", "StopSearch", "Strain", "Studio", "Table", "TunicaError", "WriteFailure", "check", "cohort",
+           "describe", "diagnose", "discover", "export", "forget", "import_rig", "mechanism", "model", "names", "open",
+           "optimizer", "read", "report", "run", "schema", "simulate", "stability", "studio", "test", "use_plugins", "__version__"]

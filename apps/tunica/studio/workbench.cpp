@@ -103,6 +103,18 @@ const execution::PlannedRun& run_of(const execution::Plan& plan, const std::stri
   throw InputError(fmt::format("the experiment has no run '{}'. {}", label, data::suggestion(label, labels)));
 }
 
+/// Its data, and what its options name: a mesh, a template.
+std::vector<fs::path> files_of(const experiment::TestEntry& test) {
+  std::vector<fs::path> files = test.data.files;
+  for (const auto& [name, value] : test.options.values()) {
+    const auto* const text = std::get_if<std::string>(&value);
+    std::error_code none;
+    if (text != nullptr && !text->empty() && fs::is_regular_file(test.folder / *text, none))
+      files.push_back(test.folder / *text);
+  }
+  return files;
+}
+
 /// The page evaluates at every move of a slider: nothing of others may be started by that.
 void refuse_programs(const experiment::Experiment& experiment) {
   for (const auto& test : experiment.tests)
@@ -125,7 +137,7 @@ Workbench::~Workbench() = default;
 experiment::Experiment Workbench::read(const fs::path& file) const {
   auto experiment = session_.read(file, experiment::Purpose::prediction);
   for (const auto& test : experiment.tests)
-    for (const fs::path& data : test.data.files) require_inside(data, file.string());
+    for (const fs::path& named : files_of(test)) require_inside(named, file.string());
   return experiment;
 }
 
