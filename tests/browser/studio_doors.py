@@ -101,6 +101,21 @@ def errors_carry_the_words_of_the_core(studio):
     assert studio.post("/api/start", {"verb": "plugin"})[0] == 400
 
 
+def what_changes_in_the_folder_is_read_again(studio):
+    studio.upload("changing.csv", rig_file())
+    sizes = {"--width": "6 mm", "--thickness": "1.5 mm", "--gauge-length": "20 mm"}
+    file = studio.ask("import", files=["changing.csv"], asked=sizes)["file"]
+    largest = [max(studio.ask("problem", file=file)["runs"][0]["channels"][0]["y"])]
+    (studio.folder / "changing.csv").write_bytes(rig_file().replace(b";4,", b";9,"))
+    largest.append(max(studio.ask("problem", file=file)["runs"][0]["channels"][0]["y"]))
+    assert largest[1] > 1.5 * largest[0], largest
+    changed = studio.ask("document", file=file)["document"]
+    changed["models"] = {"ogden": {"type": "no_such_model"}}
+    status, said = studio.post("/api/save", {"file": file, "document": changed})
+    assert status == 400 and "no_such_model" in said["error"] and "trial" not in said["error"], said
+    assert "no_such_model" not in (studio.folder / file).read_text() and not list(studio.folder.glob("trial*"))
+
+
 def one_server_a_project(tunica, studio):
     found = subprocess.run([tunica, "studio", str(studio.folder), "--no-browser"], capture_output=True, text=True, timeout=30)
     assert found.returncode == 2 and "another `tunica studio`" in found.stderr, found.stderr
@@ -183,6 +198,7 @@ def main():
         (outside / "secret.csv").unlink()
         uploads_have_limits_and_plain_names(studio)
         errors_carry_the_words_of_the_core(studio)
+        what_changes_in_the_folder_is_read_again(studio)
         one_server_a_project(options.tunica, studio)
     assert studio.process.returncode == 0, studio.process.returncode
     for log in (studio.said, (project / ".tunica-studio/refused.log").read_text()):

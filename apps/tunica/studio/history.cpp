@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/history.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include <nlohmann/json.hpp>
 
 #include "execution/files.hpp"
-#include "studio/job_record.hpp"
 #include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
@@ -72,12 +72,15 @@ double written(const fs::path& folder) {
 
 }  // namespace
 
-json result_entry(const fs::path& folder) {
+json result_entry(const fs::path& folder, const std::vector<JobRecord>& jobs) {
+  const auto job = std::find_if(jobs.begin(), jobs.end(), [&](const JobRecord& one) {
+    return !one.experiment.empty() && fs::path(one.folder) == folder;
+  });
   const json result = document_in(folder / "result.json");
   json entry = {{"folder", folder.generic_string()},
                 {"kind", "unfinished"},
                 {"written", written(folder)},
-                {"experiment", experiment_of_job(folder)},
+                {"experiment", job == jobs.end() ? json(nullptr) : json(job->experiment)},
                 {"report", fs::exists(folder / "report.html")},
                 {"leads_to", json::array()},
                 {"summary", nullptr}};

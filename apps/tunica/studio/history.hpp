@@ -2,16 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
+
+#include "studio/job_record.hpp"
 
 /// What was tried, read from the folders of results themselves.
 namespace tunica::app::studio {
 
 /// One folder of results: {"folder", "kind": run|diagnosis|discovery|simulation|unfinished, "written" (s since 1970),
-/// "experiment" (or null), "report", "leads_to": [{"file", "what": extended|mended|discovered}], "summary"}. A run has
-/// the best of each run in "summary": {"runs": [{run, rms, rms_upper, objective, converged, parameters}]}, a diagnosis
-/// its verdict and causes.
-nlohmann::ordered_json result_entry(const std::filesystem::path& folder);
+/// "experiment" of the job that wrote it (or null), "report", "leads_to": [{"file", "what":
+/// extended|mended|discovered}], "summary"}. A run has the best of each run in "summary": {"runs": [{run, rms,
+/// rms_upper, objective, converged, parameters}]}, a diagnosis its verdict and causes.
+nlohmann::ordered_json result_entry(const std::filesystem::path& folder, const std::vector<JobRecord>& jobs);
 
 }  // namespace tunica::app::studio

@@ -81,10 +81,4 @@ void write_record(const JobRecord& job) {
   execution::write_atomically(job.file(".json"), saved.dump(1) + '\n');
 }
 
-json experiment_of_job(const fs::path& folder) {
-  for (const JobRecord& job : job_records())
-    if (!job.experiment.empty() && fs::path(job.folder) == folder) return job.experiment;
-  return nullptr;
-}
-
 }  // namespace tunica::app::studio

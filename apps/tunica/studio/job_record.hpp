@@ -31,7 +31,4 @@ std::string next_job_id();
 std::vector<JobRecord> job_records();
 void write_record(const JobRecord& job);
 
-/// The experiment whose job wrote this folder; null where it was not started here.
-nlohmann::ordered_json experiment_of_job(const std::filesystem::path& folder);
-
 }  // namespace tunica::app::studio

@@ -55,7 +55,7 @@ bool is_data(const fs::path& file) {
   return ending == ".csv" || ending == ".txt" || ending == ".tsv" || ending == ".dat" || ending == ".asc";
 }
 
-void collect(const fs::path& folder, int depth, json& found, std::size_t& left) {
+void collect(const fs::path& folder, int depth, const std::vector<JobRecord>& jobs, json& found, std::size_t& left) {
   std::error_code none;
   std::vector<fs::path> entries;
   for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, none))
@@ -66,9 +66,9 @@ void collect(const fs::path& folder, int depth, json& found, std::size_t& left) 
     if (entry.filename().native().front() == '.' || !text::is_plain(name) || fs::is_symlink(entry, none)) continue;
     if (fs::is_directory(entry, none)) {
       if (is_result(entry))
-        found["results"].push_back(result_entry(entry));
+        found["results"].push_back(result_entry(entry, jobs));
       else if (depth < deepest)
-        collect(entry, depth + 1, found, left);
+        collect(entry, depth + 1, jobs, found, left);
     } else if (fs::is_regular_file(entry, none)) {
       if (entry.extension() == ".json" && is_experiment(entry)) found["experiments"].push_back(name);
       if (is_data(entry)) found["data"].push_back(name);
@@ -133,7 +133,7 @@ fs::path free_name(const fs::path& wished) {
 json contents() {
   json found = {{"experiments", json::array()}, {"data", json::array()}, {"results", json::array()}};
   std::size_t left = most_entries;
-  collect({}, 0, found, left);
+  collect({}, 0, job_records(), found, left);
   found["complete"] = left > 0;
   auto& results = found["results"];
   std::stable_sort(results.begin(), results.end(),

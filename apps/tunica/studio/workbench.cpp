@@ -30,9 +30,16 @@ using json = nlohmann::ordered_json;
 /// The plan refers to the experiment beside it.
 struct Workbench::Open {
   std::string file;
-  fs::file_time_type written;
   experiment::Experiment experiment;
+  std::vector<std::pair<fs::path, fs::file_time_type>> sources = {};  ///< the file and what it names, as they were read
   execution::Plan plan = {};
+
+  [[nodiscard]] bool is_current() const {
+    return std::all_of(sources.begin(), sources.end(), [](const auto& source) {
+      std::error_code gone;
+      return fs::last_write_time(source.first, gone) == source.second && !gone;
+    });
+  }
 };
 
 namespace {
@@ -144,17 +151,19 @@ experiment::Experiment Workbench::read(const fs::path& file) const {
 std::shared_ptr<const Workbench::Open> Workbench::opened(const std::string& name) {
   constexpr std::size_t most = 6;
   const fs::path file = file_inside(name);
-  const auto written = fs::last_write_time(file);
   {
     const std::lock_guard lock(mutex_);
     const auto found = std::find_if(open_.begin(), open_.end(),
-                                    [&](const auto& one) { return one->file == name && one->written == written; });
+                                    [&](const auto& one) { return one->file == name && one->is_current(); });
     if (found != open_.end()) {
       open_.splice(open_.begin(), open_, found);
       return open_.front();
     }
   }
-  auto open = std::make_shared<Open>(Open{name, written, read(file)});
+  std::vector<std::pair<fs::path, fs::file_time_type>> sources{{file, fs::last_write_time(file)}};
+  auto open = std::make_shared<Open>(Open{name, read(file), std::move(sources)});
+  for (const auto& test : open->experiment.tests)
+    for (const fs::path& named : files_of(test)) open->sources.emplace_back(named, fs::last_write_time(named));
   refuse_programs(open->experiment);
   open->plan = execution::make_plan(open->experiment, session_.catalogue());
   if (open->plan.runs.empty())
