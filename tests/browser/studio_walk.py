@@ -120,6 +120,9 @@ def mistake_taken_back(page, folder):
     page.picture("mistake", 1240)
     page.click("Take it so, and fit")
     page.see("What came out")
+    page.go("history")
+    names = page.browser.run("return [...document.querySelectorAll('tbody tr')].map((row) => [row.children[1].className, row.children[1].innerText.trim()])")
+    assert names.index(["depth0", "mistaken.json"]) < names.index(["depth1", "mistaken-2.json"]), names
     assert '"cauchy"' in (folder / "mistaken.json").read_text() and '"cauchy"' not in (folder / "mistaken-2.json").read_text()
 
 

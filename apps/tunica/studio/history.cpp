@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 
 #include <nlohmann/json.hpp>
 
 #include "execution/files.hpp"
+#include "studio/project_folder.hpp"
 #include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
@@ -101,6 +103,19 @@ json result_entry(const fs::path& folder, const std::vector<JobRecord>& jobs) {
     entry["summary"] = of_runs(result);
   }
   return entry;
+}
+
+json copies() {
+  const json saved = document_in(own_place() / "copies.json");
+  return saved.is_object() ? saved : json::object();
+}
+
+void note_copy(const std::string& copy, const std::string& original) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  json all = copies();
+  all[copy] = original;
+  execution::write_atomically(own_place() / "copies.json", all.dump(1) + '\n');
 }
 
 }  // namespace tunica::app::studio

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,5 +17,9 @@ namespace tunica::app::studio {
 /// extended|mended|discovered}], "summary"}. A run has the best of each run in "summary": {"runs": [{run, rms,
 /// rms_upper, objective, converged, parameters}]}, a diagnosis its verdict and causes.
 nlohmann::ordered_json result_entry(const std::filesystem::path& folder, const std::vector<JobRecord>& jobs);
+
+/// Which experiment was changed into which: {copy: original}, from .tunica-studio/copies.json.
+nlohmann::ordered_json copies();
+void note_copy(const std::string& copy, const std::string& original);
 
 }  // namespace tunica::app::studio

@@ -135,6 +135,7 @@ json contents() {
   std::size_t left = most_entries;
   collect({}, 0, job_records(), found, left);
   found["complete"] = left > 0;
+  found["copies"] = copies();
   auto& results = found["results"];
   std::stable_sort(results.begin(), results.end(),
                    [](const json& a, const json& b) { return a["written"] > b["written"]; });

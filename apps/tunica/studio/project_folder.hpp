@@ -29,7 +29,8 @@ std::string file_name(std::string_view wished);
 /// "strip.csv", or "strip-2.csv" where that is taken, and so on.
 std::filesystem::path free_name(const std::filesystem::path& wished);
 
-/// What there is: {"experiments": [name], "data": [name], "results": [{"folder", "kind", …}]}, newest results first.
+/// What there is: {"experiments": [name], "data": [name], "results": [{"folder", "kind", …}]}, newest results first,
+/// and "copies", see copies().
 nlohmann::ordered_json contents();
 
 /// The worked examples that were installed: [{"name", "title"}].

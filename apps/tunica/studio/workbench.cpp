@@ -19,6 +19,7 @@
 #include "experiment/json_document.hpp"
 #include "serving/served_run.hpp"
 #include "studio/doorkeeper.hpp"
+#include "studio/history.hpp"
 #include "studio/project_folder.hpp"
 #include "tunica/error.hpp"
 
@@ -207,6 +208,7 @@ json Workbench::save(const std::string& name, const json& document, bool as_new)
     throw;
   }
   fs::rename(trial, target);
+  if (target != file) note_copy(target.generic_string(), file.generic_string());
   return {{"file", target.generic_string()}};
 }
 

@@ -9,17 +9,18 @@ import { missed, number, plain, unit, verdicts, when } from "./words.js";
 /** Rows in the order of the tree: {kind, depth, name, entry}. */
 export function tree(all) {
   const parent = new Map(all.results.flatMap((entry) => entry.leads_to.map((one) => [one.file, entry.folder])));
-  const rows = [], seen = new Set();
+  const rows = [], seen = new Set(), copies = Object.entries(all.copies).filter(([copy, original]) => all.experiments.includes(copy) && all.experiments.includes(original));
   function experiment(name, depth) {
     rows.push({ kind: "experiment", depth, name });
     for (const entry of [...all.results].reverse()) if (entry.experiment === name && !seen.has(entry.folder)) resultOf(entry, depth + 1);
+    for (const [copy, original] of copies) if (original === name) experiment(copy, depth + 1);
   }
   function resultOf(entry, depth) {
     seen.add(entry.folder);
     rows.push({ kind: "result", depth, name: entry.folder, entry });
     for (const next of entry.leads_to) experiment(next.file, depth + 1);
   }
-  for (const name of all.experiments) if (!parent.has(name)) experiment(name, 0);
+  for (const name of all.experiments) if (!parent.has(name) && !copies.some(([copy]) => copy === name)) experiment(name, 0);
   for (const entry of all.results) if (!seen.has(entry.folder)) resultOf(entry, 0);
   return rows;
 }
