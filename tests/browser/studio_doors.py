@@ -116,6 +116,20 @@ def what_changes_in_the_folder_is_read_again(studio):
     assert "no_such_model" not in (studio.folder / file).read_text() and not list(studio.folder.glob("trial*"))
 
 
+def every_example_opens_and_follows_its_sliders(studio):
+    examples = studio.ask("project")["examples"]
+    assert len(examples) == 10, examples
+    for example in examples:
+        file = studio.ask("example", name=example["name"])["file"]
+        run = studio.ask("problem", file=file)["runs"][0]
+        values = [(0.9 * one["initial"] + 0.1 * one["max"]) for one in run["parameters"]]
+        before, after = (studio.ask("simulate", file=file, run=run["label"], values=point)
+                         for point in ([one["initial"] for one in run["parameters"]], values))
+        assert [len(channel) for channel in before["channels"]] == [len(channel["x"]) for channel in run["channels"]], file
+        assert before["objective"] > 0 and after["channels"] != before["channels"], file
+    assert studio.post("/api/example", {"name": "../examples"})[0] == 400
+
+
 def one_server_a_project(tunica, studio):
     found = subprocess.run([tunica, "studio", str(studio.folder), "--no-browser"], capture_output=True, text=True, timeout=30)
     assert found.returncode == 2 and "another `tunica studio`" in found.stderr, found.stderr
@@ -199,6 +213,7 @@ def main():
         uploads_have_limits_and_plain_names(studio)
         errors_carry_the_words_of_the_core(studio)
         what_changes_in_the_folder_is_read_again(studio)
+        every_example_opens_and_follows_its_sliders(studio)
         one_server_a_project(options.tunica, studio)
     assert studio.process.returncode == 0, studio.process.returncode
     for log in (studio.said, (project / ".tunica-studio/refused.log").read_text()):
