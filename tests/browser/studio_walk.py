@@ -61,6 +61,14 @@ def fit(page):
     page.picture("fit", 1650)
 
 
+def sliders_at_the_fit(page):
+    page.go("work", "strip.json")
+    page.set("[data-from]", "0")
+    page.until("return Math.abs(Number(document.querySelector('input.number').value) - 328.47) < 0.1")
+    page.see("objective 0.65122")  # that of the run
+    page.go("fit", "strip.json")
+
+
 def diagnose(page, folder):
     page.click("Find out what is wrong")
     page.click("Diagnose")
@@ -184,6 +192,7 @@ def main():
             frames = move_sliders(page)
             print(f"from a slider to its frame: {statistics.median(frames):.1f} ms, at most {max(frames):.1f} ms, {len(frames)} frames")
             fit(page)
+            sliders_at_the_fit(page)
             diagnose(page, folder)
             compare_and_take_away(page, folder, studio.host)
         with Browser(downloads) as browser:  # another browser, the same state

@@ -50,6 +50,17 @@ function testsPanel(name, run, document, open) {
   return place;
 }
 
+/** Values that a fit has found, for the sliders; nothing without one. */
+function fromResults(all, name, run, knobs) {
+  const fits = all.results.filter((one) => one.experiment === name && one.kind === "run").flatMap((one) =>
+    one.summary.runs.filter((entry) => entry.run.split("/")[0] === run.model && entry.parameters).map((entry) => [`${one.folder}: ${entry.run}`, entry.parameters]));
+  if (!fits.length) return "";
+  const list = choice([["", "the initial values"], ...fits.map(([title], k) => [String(k), title])], "", { "data-from": "" });
+  list.addEventListener("change", () => knobs.set(list.value === "" ? Object.fromEntries(run.parameters.map((p) => [p.name, p.initial]))
+    : Object.fromEntries(Object.entries(fits[Number(list.value)][1]).map(([key, one]) => [key, one.value]))));
+  return field("Sliders at", list);
+}
+
 /** What `tunica check` says, asked once the page is there. */
 async function checked(place, name) {
   try {
@@ -117,7 +128,7 @@ export async function materialPage(place, all, name) {
     }) }, "Keep as initial values and bounds");
     put(body, el("div", { class: "wide" },
       el("div", { class: "sticky" }, modelPanel(name, run, file.document, catalogue, open),
-        panel("Parameters", knobs.node, el("div", { class: "row" }, keep), saving,
+        panel("Parameters", fromResults(all, name, run, knobs), knobs.node, el("div", { class: "row" }, keep), saving,
           run.fixed.length ? el("p", {}, el("small", {}, "Held: ", run.fixed.map((one) => `${one.name} = ${number(one.value)}${unit(one.unit)}`).join(", "))) : "",
           shell(`tunica simulate ${quoted(name)} --model ${quoted(run.model)} -o predicted`))),
       el("div", {}, panel("Curve over the data", charts.map((one) => one.node), quality, stable, failed, el("div", { class: "row" }, el("a", { class: "button", href: to("fit", name) }, "Next: fit"))),
