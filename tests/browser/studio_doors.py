@@ -11,7 +11,7 @@ import signal
 import subprocess
 import time
 
-from studio_server import Studio, rig_file, slow_experiment
+from studio_server import Studio, mistaken_experiment, rig_file, slow_experiment
 
 
 def only_with_the_token(studio):
@@ -130,6 +130,18 @@ def every_example_opens_and_follows_its_sliders(studio):
     assert studio.post("/api/example", {"name": "../examples"})[0] == 400
 
 
+def a_diagnosis_is_a_job_with_its_words(options, studio):
+    """Of a file with a wrong stress measure: a cause leads that is no mechanism of the catalogue."""
+    mistaken_experiment(options.source, studio.folder)
+    job = studio.wait(studio.ask("start", verb="diagnose", experiment="mistaken.json")["id"])
+    assert job["state"] == "done" and "LEADING" in job["words"], job
+    found = json.loads(studio.shown(job["folder"] + "/result.json")[2])["diagnosis"]
+    first = found["file"]["causes"][0]
+    assert first["kind"] == "stress_measure" and first["tests"] == ["uniaxial"] and found["base"]["squares"] > 40 * first["squares"], first
+    entry = next(one for one in studio.ask("project")["results"] if one["folder"] == job["folder"])
+    assert entry["kind"] == "diagnosis" and entry["experiment"] == "mistaken.json" and entry["summary"]["verdict"] == "leading", entry
+
+
 def one_server_a_project(tunica, studio):
     found = subprocess.run([tunica, "studio", str(studio.folder), "--no-browser"], capture_output=True, text=True, timeout=30)
     assert found.returncode == 2 and "another `tunica studio`" in found.stderr, found.stderr
@@ -214,6 +226,7 @@ def main():
         errors_carry_the_words_of_the_core(studio)
         what_changes_in_the_folder_is_read_again(studio)
         every_example_opens_and_follows_its_sliders(studio)
+        a_diagnosis_is_a_job_with_its_words(options, studio)
         one_server_a_project(options.tunica, studio)
     assert studio.process.returncode == 0, studio.process.returncode
     for log in (studio.said, (project / ".tunica-studio/refused.log").read_text()):
