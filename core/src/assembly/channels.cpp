@@ -18,15 +18,18 @@ std::string unit_of(const std::string& name, const std::vector<Observable>& obse
   return found == observables.end() ? std::string() : found->unit;
 }
 
-/// The abscissa of a channel among those of its test; time where they are held, the number of the row where there is
-/// none.
+/// What rows stand over where nothing is prescribed in the data: the clock, else their numbers.
+DrawnOver without_abscissae(const data::Dataset& dataset) {
+  if (!dataset.time.empty()) return {"time", "s", dataset.time, {}};
+  DrawnOver drawn{"row", "1", {}, {}};
+  for (std::size_t row = 0; row < dataset.count; ++row) drawn.values.push_back(static_cast<double>(row));
+  return drawn;
+}
+
+/// The abscissa of a channel among those of its test; time where they are held or there is none.
 DrawnOver drawn_over(const std::string& channel, const data::Dataset& dataset,
                      const std::vector<Observable>& observables) {
-  DrawnOver drawn{"row", "1", {}, {}};
-  if (dataset.abscissae.empty()) {
-    for (std::size_t row = 0; row < dataset.count; ++row) drawn.values.push_back(static_cast<double>(row));
-    return drawn;
-  }
+  if (dataset.abscissae.empty()) return without_abscissae(dataset);
   std::vector<data::Prescribed> prescribed;
   for (const auto& [name, values] : dataset.abscissae) prescribed.push_back({name, unit_of(name, observables), values});
   if (data::is_over_time(prescribed, dataset.time)) return {"time", "s", dataset.time, {}};
@@ -96,9 +99,10 @@ std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entr
         measured.other_abscissae.emplace_back(fmt::format("{} [{}]", label, unit_of(label, observables)), column);
       }
     } else {
-      measured.abscissa_name = "row";
-      measured.abscissa_unit = "1";
-      for (std::size_t row = 0; row < dataset.count; ++row) measured.abscissa.push_back(static_cast<double>(row));
+      DrawnOver over = without_abscissae(dataset);
+      measured.abscissa_name = std::move(over.name);
+      measured.abscissa_unit = std::move(over.unit);
+      measured.abscissa = std::move(over.values);
     }
     measured.drawn_over = drawn_over(channel.observable, dataset, observables);
     found.push_back(std::move(measured));

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controlled_strip.hpp"
+
+namespace tunica::controlled_strip {
+
+Control measure_of(const std::string& stress_measure) {
+  return stress_measure == "first_piola_kirchhoff"    ? Control::nominal
+         : stress_measure == "second_piola_kirchhoff" ? Control::second
+                                                      : Control::cauchy;
+}
+
+Strip strip_of(const TestSetup& setup, const char* type) {
+  Strip strip;
+  strip.type = type;
+  strip.loaded = setup.options.text("direction") == "circumferential" ? 0 : 1;
+  strip.measure = measure_of(setup.stress_measure);
+  strip.rows = setup.rows.count;
+  strip.timed = !setup.rows.time.empty();
+  for (const std::string& channel : setup.rows.channels)
+    strip.channels.push_back(channel == "stress"               ? Channel::stress
+                             : channel == "transverse_stretch" ? Channel::transverse_stretch
+                             : channel == "normal_stretch"     ? Channel::normal_stretch
+                                                               : Channel::stretch);
+  for (std::size_t i = 1; i < setup.rows.time.size(); ++i)
+    if (!(setup.rows.time[i] >= setup.rows.time[i - 1]))
+      throw InputError(std::string(type) + ": time runs backwards at row " + std::to_string(i + 1) +
+                       "; rows must stand in loading order");
+  return strip;
+}
+
+Option direction_option() {
+  return Option::choice("direction", {"circumferential", "axial"}, {}, "Material axis the strip is pulled along.");
+}
+
+std::vector<Observable> lateral_channels() {
+  using Role = Observable::Role;
+  return {{"transverse_stretch", "1", Role::channel, false, "In-plane stretch across the strip.",
+           Observable::Kind::stretch},
+          {"normal_stretch", "1", Role::channel, false, "Stretch through the thickness.", Observable::Kind::stretch}};
+}
+
+TestDescription description_of_strip() {
+  TestDescription description;
+  description.diagnostics = {"transverse_stretch", "normal_stretch"};
+  description.diagnostic_units = {"1", "1"};
+  description.path_derivatives = true;
+  return description;
+}
+
+}  // namespace tunica::controlled_strip
+
+TUNICA_PLUGIN("controlled_strip", TUNICA_PLUGIN_VERSION) {
+  registry.add(tunica::controlled_strip::creep_factory());
+  registry.add(tunica::controlled_strip::loading_segments_factory());
+}
