@@ -138,6 +138,12 @@ Verdict given_abscissae_replace_the_bound_ones(const Simulation& s, std::uint64_
     for (std::size_t i = 0; i < own.size(); ++i)
       meter.see(std::abs(own[i] - given[i]) / channel_scale(s, own, i),
                 [&] { return fmt::format("{} is {:.15g} as bound, {:.15g} as given", place(s, i), own[i], given[i]); });
+    // A frequency changes nothing where the material has no memory: the test then says so by its derivative.
+    const Prediction with = predict(s.test, s.input(), {.abscissa_derivative = true});
+    const auto from = with.abscissa_derivative.begin() + static_cast<std::ptrdiff_t>(k * own.size());
+    if (with.status.ok() &&
+        std::all_of(from, from + static_cast<std::ptrdiff_t>(own.size()), [](double x) { return x == 0; }))
+      continue;
     Values moved = bound;
     for (double& one : moved) one += 1e-3;
     if (values_at(s, s.model_parameters, s.test_parameters, moved, k) == own)

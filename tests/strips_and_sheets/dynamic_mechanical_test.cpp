@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "controlled.hpp"
+#include "support/strip.hpp"
+
+// Storage and loss modulus: closed forms of a Prony series, slopes of static curves, and a strip that oscillates in
+// time.
+namespace tunica::testing::dynamic_mechanical_test {
+namespace {
+
+using ::testing::HasSubstr;
+using Complex = std::complex<double>;
+using Column = std::pair<std::string, std::vector<double>>;
+
+struct Dma {
+  std::string mode = "tension", direction = "circumferential", normal = "axial", shift = "none";
+  double static_stretch = 1, reference = 0;
+  std::vector<std::string> channels = {"storage_modulus", "loss_modulus"};
+};
+std::unique_ptr<Test> make_dma(const std::vector<Column>& columns, const Dma& dma = {}) {
+  TestSetup setup;
+  setup.options.set("mode", dma.mode);
+  setup.options.set("direction", dma.direction);
+  setup.options.set("normal", dma.normal);
+  setup.options.set("shift", dma.shift);
+  setup.options.set("static_stretch", dma.static_stretch);
+  setup.options.set("reference_temperature", dma.reference);
+  setup.rows.count = columns.front().second.size();
+  for (const auto& [name, values] : columns) setup.rows.abscissae.push_back({name, values});
+  setup.rows.channels = dma.channels;
+  setup.stress_measure = "cauchy";
+  return plugins::create(catalogue().tests().at("dynamic_mechanical"), setup);
+}
+std::vector<double> values_of(const Test& test, const Model& model, const std::vector<double>& p,
+                              const std::vector<double>& own = {}) {
+  std::vector<double> values(test.rows().count * test.rows().channels.size());
+  const Status status = test.predict({model, p, own}, {values, {}, {}, {}});
+  EXPECT_TRUE(status.ok()) << status.reason();
+  return values;
+}
+
+const std::vector<double> frequencies{1e-5, 1e-3, 0.01, 0.1, 1, 10, 1e3, 1e6};
+
+/// 1 + Σ g iωτ/(1 + iωτ) of branches (g, τ).
+Complex series(double frequency, const std::vector<double>& branches) {
+  const Complex i(0, 1);
+  Complex sum = 1;
+  for (std::size_t k = 0; k < branches.size(); k += 2) {
+    const Complex x = i * (2 * std::numbers::pi * frequency * branches[k + 1]);
+    sum += branches[k] * x / (1.0 + x);
+  }
+  return sum;
+}
+
+TEST(DynamicMechanical, IsTheClosedFormOfAPronySeriesAtRest) {
+  // E* = 3μ (1 + Σ …), G* = μ (1 + Σ …), with four branches over five decades.
+  const std::vector<double> branches{0.8, 5, 0.3, 60, 0.5, 0.02, 1.2, 0.5};
+  std::vector<double> p{12};
+  p.insert(p.end(), branches.begin(), branches.end());
+  const auto model = viscous("neo_hooke", 4);
+  for (const std::string mode : {"tension", "shear"}) {
+    const double modulus = mode == "tension" ? 36 : 12;
+    const auto values = values_of(*make_dma({{"frequency", frequencies}}, {.mode = mode}), *model, p);
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+      const Complex expected = modulus * series(frequencies[i], branches);
+      EXPECT_NEAR(values[i], expected.real(), 1e-8 * std::abs(expected)) << mode << ", " << frequencies[i] << " Hz";
+      EXPECT_NEAR(values[8 + i], expected.imag(), 1e-8 * std::abs(expected)) << mode << ", " << frequencies[i] << " Hz";
+    }
+  }
+}
+
+TEST(DynamicMechanical, IsTheClosedFormAboutAStaticStretch) {
+  // A neo-Hookean strip at λ: S'_a = μ (1 − I1/(3 c_a)). With λ2 = λ3, σ_v = λ² S'_1 − S'_2/λ changes by
+  // μ (λ² + 2/λ)' in l at fixed rest: from the definition dσ_v = c1 dS'_1 − c3 dS'_3 with c = (λ², 1/λ, 1/λ) this is
+  // (c1 d(−I1/(3 c1)) + c3 d(I1/(3 c3))) μ = μ I1, as dI1 cancels. The elastic part is dσ/dl = μ (2λ² + 1/λ).
+  constexpr double mu = 12, g = 0.8, tau = 5;
+  for (const double stretch : {0.7, 1.3, 2.0}) {
+    const double first = stretch * stretch + 2 / stretch;
+    const double stress = mu * (stretch * stretch - 1 / stretch);
+    const auto values = values_of(*make_dma({{"frequency", frequencies}}, {.static_stretch = stretch}),
+                                  *viscous("neo_hooke", 1), {mu, g, tau});
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+      const Complex viscous_part = series(frequencies[i], {g, tau}) - 1.0;
+      const Complex expected =
+          (mu * (2 * stretch * stretch + 1 / stretch) - stress + viscous_part * mu * first) / (stretch * stretch);
+      EXPECT_NEAR(values[i], expected.real(), 1e-8 * std::abs(expected)) << stretch << ", " << frequencies[i] << " Hz";
+      EXPECT_NEAR(values[8 + i], expected.imag(), 1e-8 * std::abs(expected)) << stretch << ", " << frequencies[i];
+    }
+  }
+}
+
+TEST(DynamicMechanical, IsTheSlopeOfTheStaticCurveWithoutMemory) {
+  const std::vector<double> gho{18.668, 0.1367, 24.905, 0.2912, 46.44}, stretches{0.95, 1.1, 1.3, 1.6};
+  for (const std::string direction : {"circumferential", "axial"}) {
+    const auto test = make_dma({{"frequency", {1, 1, 1, 1}}, {"static_stretch", stretches}}, {.direction = direction});
+    const auto values = values_of(*test, *make_model("gho"), gho);
+    const auto strip = make_strip(stretches, {.direction = direction, .measure = "first_piola_kirchhoff"});
+    const auto slope = predict(*strip, *make_model("gho"), gho, 0, true).abscissa_derivative;
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(values[i] / slope[i], 1, 1e-9) << direction << ", " << stretches[i];
+      EXPECT_EQ(values[4 + i], 0);
+    }
+  }
+}
+
+TEST(DynamicMechanical, IsWhatAStripShowsThatOscillatesInTime) {
+  // A sine of amplitude 1e-5 about λ = 1.3, until the start is forgotten; the last period in the phases of the sine.
+  constexpr double stretch = 1.3, amplitude = 1e-5, frequency = 0.1;
+  const std::vector<double> p{18.668, 0.1367, 24.905, 0.2912, 46.44, 0.8, 2, 0.3, 0.5};
+  constexpr std::size_t per_period = 2000, periods = 8;
+  std::vector<double> lambda{stretch}, time{1e6};  // settled before
+  for (std::size_t k = 1; k <= per_period * periods; ++k) {
+    const double t = double(k) / (per_period * frequency);
+    time.push_back(1e6 + t);
+    lambda.push_back(stretch + amplitude * std::sin(2 * std::numbers::pi * frequency * t));
+  }
+  const auto model = viscous("gho", 2);
+  const auto strip = make_strip(lambda, {.measure = "first_piola_kirchhoff", .time = time});
+  const auto stress = predict(*strip, *model, p).values;
+  double in_phase = 0, ahead = 0;
+  for (std::size_t k = 0; k < per_period; ++k) {
+    const std::size_t row = per_period * (periods - 1) + 1 + k;
+    const double phase = 2 * std::numbers::pi * frequency * (time[row] - 1e6);
+    in_phase += stress[row] * std::sin(phase) * 2 / per_period;
+    ahead += stress[row] * std::cos(phase) * 2 / per_period;
+  }
+  const auto values = values_of(*make_dma({{"frequency", {frequency}}}, {.static_stretch = stretch}), *model, p);
+  EXPECT_NEAR(in_phase / amplitude, values[0], 1e-5 * values[0]);
+  EXPECT_NEAR(ahead / amplitude, values[1], 1e-5 * values[0]);
+}
+
+TEST(DynamicMechanical, ShiftsFrequenciesWithTheTemperature) {
+  const std::vector<double> at{0.5, 0.5, 0.5}, T{280, 300, 330}, p{12, 0.8, 0.3};
+  const auto model = viscous("neo_hooke", 1);
+  const auto wlf = make_dma({{"frequency", at}, {"temperature", T}}, {.shift = "wlf", .reference = 300});
+  const auto arrhenius = make_dma({{"frequency", at}, {"temperature", T}}, {.shift = "arrhenius", .reference = 300});
+  const auto by_wlf = values_of(*wlf, *model, p, {8.86, 101.6}), by_arrhenius = values_of(*arrhenius, *model, p, {60});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double a = std::pow(10, -8.86 * (T[i] - 300) / (101.6 + T[i] - 300));
+    const double b = std::exp(60e3 / 8.31446261815324 * (1 / T[i] - 1.0 / 300));
+    EXPECT_NEAR(by_wlf[i], 36 * series(0.5 * a, {0.8, 0.3}).real(), 1e-7);
+    EXPECT_NEAR(by_arrhenius[3 + i], 36 * series(0.5 * b, {0.8, 0.3}).imag(), 1e-7);
+  }
+  std::vector<double> values(6);
+  const std::vector<double> too_cold{8.86, 15};
+  const Status status = wlf->predict({*model, p, too_cold}, {values, {}, {}, {}});
+  EXPECT_THAT(status.reason(), HasSubstr("row 1 (0.500000 Hz, stretch 1.000000): the temperature lies where"));
+}
+
+TEST(DynamicMechanical, GivesLossTangentAndAmplitudeToo) {
+  const auto test = make_dma({{"frequency", {0.1}}},
+                             {.channels = {"storage_modulus", "loss_modulus", "loss_tangent", "dynamic_modulus"}});
+  const auto values = values_of(*test, *viscous("neo_hooke", 1), {12, 0.8, 5});
+  EXPECT_DOUBLE_EQ(values[2], values[1] / values[0]);
+  EXPECT_DOUBLE_EQ(values[3], std::hypot(values[0], values[1]));
+}
+
+std::string refusal(const std::vector<Column>& columns, const Dma& dma = {}) {
+  try {
+    make_dma(columns, dma);
+  } catch (const InputError& problem) {
+    return problem.what();
+  }
+  return "accepted";
+}
+
+TEST(DynamicMechanical, SaysWhatIsWrongWithAProtocol) {
+  EXPECT_THAT(refusal({{"frequency", {1, 0}}}), HasSubstr("row 2 has the frequency 0.000000 Hz; expected one above 0"));
+  EXPECT_THAT(refusal({{"frequency", {1}}, {"static_stretch", {-1}}}), HasSubstr("the static stretch -1.000000"));
+  EXPECT_THAT(refusal({{"temperature", {300}}}), HasSubstr("no column mapped to 'frequency'"));
+  EXPECT_THAT(refusal({{"frequency", {1}}, {"temperature", {300}}}), HasSubstr("changes nothing without \"shift\""));
+  EXPECT_THAT(refusal({{"frequency", {1}}}, {.shift = "wlf"}), HasSubstr("needs the temperature of each row"));
+  EXPECT_THAT(refusal({{"frequency", {1}}, {"temperature", {300}}}, {.shift = "wlf"}),
+              HasSubstr("needs \"reference_temperature\""));
+  EXPECT_THAT(refusal({{"frequency", {1}}}, {.mode = "shear", .static_stretch = 1.2}), HasSubstr("is not stretched"));
+  EXPECT_THAT(refusal({{"frequency", {1}}}, {.mode = "shear", .normal = "circumferential"}), HasSubstr("are the same"));
+  EXPECT_THAT(refusal({{"frequency", {1}}, {"static_stretch", {1.2}}}, {.static_stretch = 1.2}),
+              HasSubstr("is an option and a column"));
+}
+
+}  // namespace
+}  // namespace tunica::testing::dynamic_mechanical_test
