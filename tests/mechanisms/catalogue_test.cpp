@@ -25,6 +25,7 @@ const std::map<std::string, Side> catalogued{{"fibre_dispersion", Side::positive
                                              {"fibre_recruitment", Side::positive},
                                              {"active_tone", Side::positive},
                                              {"stress_softening", Side::positive},
+                                             {"damage", Side::positive},
                                              {"viscoelasticity", Side::positive},
                                              {"permanent_set", Side::positive},
                                              {"residual_stress", Side::both},
@@ -56,7 +57,7 @@ TEST(Catalogue, HoldsEveryMechanismWithItsSide) {
   std::map<std::string, Side> shelf;
   for (const auto& [id, entry] : testing::catalogue().mechanisms()) shelf[id] = entry.factory.side;
   EXPECT_EQ(shelf, catalogued);
-  EXPECT_EQ(shelf.size(), 37u);
+  EXPECT_EQ(shelf.size(), 38u);
 }
 
 class EveryMechanism : public ::testing::TestWithParam<std::string> {

@@ -23,7 +23,7 @@ TEST_P(DecoratedModel, KeepsTheProperties) {
 INSTANTIATE_TEST_SUITE_P(
     Mechanisms, DecoratedModel,
     ::testing::Combine(::testing::Values("axial_fibres", "chain_extensibility", "circumferential_fibres",
-                                         "fibre_dispersion", "matrix_stiffening", "second_invariant",
+                                         "fibre_dispersion", "matrix_stiffening", "second_invariant", "damage",
                                          "stress_softening", "viscoelasticity"),
                        ::testing::Values("strain", "none"), ::testing::ValuesIn(model_properties())),
     [](const auto& at) {

@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<std::string> with_memory{"stress_softening", "viscoelasticity"};
+const std::vector<std::string> with_memory{"damage", "stress_softening", "viscoelasticity"};
 
 TEST(HistoryModel, ForwardsThePartsOfItsBase) {
   const auto bare = model("hgo");

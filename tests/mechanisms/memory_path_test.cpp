@@ -46,11 +46,13 @@ Subject subject(const std::string& type, const std::vector<double>& base,
 
 std::vector<Subject> subjects() {
   const std::pair<std::string, std::vector<double>> soft{"stress_softening", {0.4, 0.6}},
-      viscous{"viscoelasticity", {0.8, 5}};
+      viscous{"viscoelasticity", {0.8, 5}}, torn{"damage", {0.5, 6}};
   std::vector<Subject> all;
   const std::vector<double> gho{18.668, 0.1367, 24.905, 0.2912, 46.44}, ogden{630, 1.3, 1.2, 5, -10, -2};
   all.push_back(subject("gho", gho, {soft}));
   all.push_back(subject("gho", gho, {viscous}));
+  all.push_back(subject("gho", gho, {torn, viscous}));
+  all.push_back(subject("gho", gho, {viscous, torn}));
   all.push_back(subject("gho", gho, {soft, viscous}));
   all.push_back(subject("gho", gho, {viscous, soft}));
   all.push_back(subject("gho", gho, {viscous, {"viscoelasticity", {0.3, 60}}}));
@@ -170,8 +172,9 @@ TEST_P(MemoryPath, OfATubeIsThatOnTensorsWithDerivativesByEverything) {
       const Status status = tube.test->predict({*one.remembering, p, own}, {values, jacobian, {}, {}});
       ASSERT_TRUE(status.ok()) << one.name << ": " << status.reason();
       ASSERT_TRUE(tube.test->predict({*one.on_tensors, p, own}, {slow, {}, {}, {}}).ok());
-      // The sector of an opened tube is closed with the wall cut where fibres switch, on tensors without.
-      EXPECT_LE(testing::relative_difference(values, slow), own == testing::bare_tube ? 1e-8 : 1e-5) << one.name;
+      // The sector of an opened tube is closed with the wall cut where fibres switch, on tensors without. Damage is
+      // felt by the closing too, and doubles what that leaves.
+      EXPECT_LE(testing::relative_difference(values, slow), own == testing::bare_tube ? 1e-8 : 2e-5) << one.name;
       for (std::size_t j = 0; j < models + 5; ++j) {
         if (j == models + testing::tethering) continue;  // the exception that the test declares
         double& moved = j < models ? p[j] : own[j - models];
