@@ -16,6 +16,7 @@ struct CreepSetup {
   std::string measure = "cauchy";
   std::string direction = "circumferential";
   std::int64_t steps = 1;
+  bool permanent_set = false;
 };
 
 inline std::unique_ptr<Test> make_creep(const std::vector<double>& stress, const std::vector<double>& time,
@@ -23,6 +24,7 @@ inline std::unique_ptr<Test> make_creep(const std::vector<double>& stress, const
   TestSetup setup;
   setup.options.set("direction", creep.direction);
   setup.options.set("steps", creep.steps);
+  setup.options.set("permanent_set", creep.permanent_set);
   setup.rows.count = stress.size();
   setup.rows.abscissae = {{"stress", stress}};
   setup.rows.channels = creep.channels;
@@ -33,13 +35,15 @@ inline std::unique_ptr<Test> make_creep(const std::vector<double>& stress, const
 
 inline std::unique_ptr<Test> make_segments(const std::string& segments, const std::vector<double>& time,
                                            std::vector<std::string> channels, std::int64_t steps = 20,
-                                           const std::string& measure = "first_piola_kirchhoff") {
+                                           const std::string& measure = "first_piola_kirchhoff",
+                                           bool permanent_set = false) {
   TestSetup setup;
   setup.options.set("direction", std::string("circumferential"));
   setup.options.set("segments", segments);
   setup.options.set("steps", steps);
   setup.options.set("gauge_length", 20.0);
   setup.options.set("area", 10.0);
+  setup.options.set("permanent_set", permanent_set);
   setup.rows.count = time.size();
   setup.rows.channels = std::move(channels);
   setup.rows.time = time;
@@ -58,10 +62,11 @@ struct Predicted {
   Status status;
   std::vector<double> values, jacobian;
 };
-inline Predicted predicted(const Test& test, const Model& model, const std::vector<double>& p, bool jacobian = false) {
+inline Predicted predicted(const Test& test, const Model& model, const std::vector<double>& p, bool jacobian = false,
+                           const std::vector<double>& own = {}) {
   const std::size_t size = test.rows().count * test.rows().channels.size();
-  Predicted out{{}, std::vector<double>(size), std::vector<double>(jacobian ? p.size() * size : 0)};
-  out.status = test.predict({model, p, {}}, {out.values, out.jacobian, {}, {}});
+  Predicted out{{}, std::vector<double>(size), std::vector<double>(jacobian ? (p.size() + own.size()) * size : 0)};
+  out.status = test.predict({model, p, own}, {out.values, out.jacobian, {}, {}});
   return out;
 }
 

@@ -152,6 +152,7 @@ TEST(LoadingSegments, NeedSizesForDisplacementsAndForces) {
   setup.options.set("steps", std::int64_t{5});
   setup.options.set("gauge_length", 0.0);
   setup.options.set("area", 0.0);
+  setup.options.set("permanent_set", false);
   setup.rows = {1, {}, {"stress"}, {}};
   const std::vector<double> time{0.5};
   setup.rows.time = time;

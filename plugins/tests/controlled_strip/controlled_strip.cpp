@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controlled_strip.hpp"
 
+#include <limits>
+
 namespace tunica::controlled_strip {
 
 Control measure_of(const std::string& stress_measure) {
@@ -16,6 +18,7 @@ Strip strip_of(const TestSetup& setup, const char* type) {
   strip.measure = measure_of(setup.stress_measure);
   strip.rows = setup.rows.count;
   strip.timed = !setup.rows.time.empty();
+  strip.has_set = setup.options.flag("permanent_set");
   for (const std::string& channel : setup.rows.channels)
     strip.channels.push_back(channel == "stress"               ? Channel::stress
                              : channel == "transverse_stretch" ? Channel::transverse_stretch
@@ -39,8 +42,22 @@ std::vector<Observable> lateral_channels() {
           {"normal_stretch", "1", Role::channel, false, "Stretch through the thickness.", Observable::Kind::stretch}};
 }
 
-TestDescription description_of_strip() {
+Option set_option() {
+  return {"permanent_set", Option::Kind::flag, false,
+          "Whether the strip stays longer after it has been stretched, by a parameter of the test."};
+}
+
+std::vector<Parameter> set_parameter() {
+  return {{"permanent_set", "1", 0.1, 0, 0.9, Scale::linear,
+           "Part of the largest stretch less one by which the strip stays longer.", "Diani, Fayolle, Gilormini 2009"}};
+}
+
+TestDescription description_of_strip(const Strip& strip) {
   TestDescription description;
+  if (strip.has_set) {
+    description.parameters = set_parameter();
+    description.nulls = {std::numeric_limits<double>::quiet_NaN()};
+  }
   description.diagnostics = {"transverse_stretch", "normal_stretch"};
   description.diagnostic_units = {"1", "1"};
   description.path_derivatives = true;

@@ -18,8 +18,11 @@ Control measure_of(const std::string& stress_measure);
 Option direction_option();
 /// The measured stretches across and through the strip.
 std::vector<Observable> lateral_channels();
-/// Diagnostics and promises of both.
-TestDescription description_of_strip();
+/// The flag of the permanent set, and the parameter that it brings.
+Option set_option();
+std::vector<Parameter> set_parameter();
+/// Diagnostics, parameters and promises of both.
+TestDescription description_of_strip(const Strip& strip);
 
 TestFactory creep_factory();
 TestFactory loading_segments_factory();

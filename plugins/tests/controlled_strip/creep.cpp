@@ -19,7 +19,9 @@ namespace {
 class Creep final : public Test {
  public:
   explicit Creep(const TestSetup& setup)
-      : strip_(strip_of(setup, "creep")), description_(description_of_strip()), parts_(setup.options.count("steps")) {
+      : strip_(strip_of(setup, "creep")),
+        description_(description_of_strip(strip_)),
+        parts_(setup.options.count("steps")) {
     for (const auto& column : setup.rows.abscissae)
       if (column.observable == "stress") stress_.assign(column.values.begin(), column.values.end());
     if (stress_.empty()) throw InputError("creep: no rows, or no column mapped to 'stress'; map one in \"columns\"");
@@ -71,13 +73,14 @@ TestFactory creep_factory() {
       {"time", "s", Role::time, false, "Time since the unloaded state.", Kind::plain},
       {"stretch", "1", Role::channel, false, "Measured stretch along the strip.", Kind::stretch}};
   for (Observable& lateral : lateral_channels()) observables.push_back(std::move(lateral));
-  return {
-      "creep",
-      "A strip under a prescribed stress or force, lateral faces free: creep, recovery, cycles of load.",
-      "Findley, Lai, Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials (1976)",
-      {direction_option(), Option::integer("steps", 1, {1, 1000}, "Steps of the simulation from one row to the next.")},
-      std::move(observables),
-      [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Creep>(setup); }};
+  return {"creep",
+          "A strip under a prescribed stress or force, lateral faces free: creep, recovery, cycles of load.",
+          "Findley, Lai, Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials (1976)",
+          {direction_option(),
+           Option::integer("steps", 1, {1, 1000}, "Steps of the simulation from one row to the next."), set_option()},
+          std::move(observables),
+          [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Creep>(setup); },
+          set_parameter()};
 }
 
 }  // namespace tunica::controlled_strip

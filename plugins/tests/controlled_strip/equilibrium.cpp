@@ -26,12 +26,13 @@ bool step_of(const Slope& f, double wanted, const Slope& r, Step& step) {
   return std::isfinite(step.l) && std::isfinite(step.y);
 }
 
-bool newton(StripPoint& point, Control control, double wanted, double time_step, Place& at, bool by_parameters) {
+bool newton(StripPoint& point, const RestLength& rest, Control control, double wanted, double time_step, Place& at,
+            bool by_parameters) {
   Place place = at;
   if (!point.evaluate(place.l, place.y, time_step)) return false;
   for (int k = 0; k < iterations; ++k) {
     Step step;
-    if (!step_of(controlled(control, point, place), wanted, point.lateral(), step)) return false;
+    if (!step_of(controlled(control, point, rest, place), wanted, point.lateral(), step)) return false;
     const double size = std::max(std::abs(step.l), std::abs(step.y));
     double share = std::min(1.0, longest / size);
     Place next;
@@ -53,37 +54,38 @@ bool newton(StripPoint& point, Control control, double wanted, double time_step,
 
 }  // namespace
 
-/// σ λ1^−k: ∂/∂l = (∂σ/∂l − k σ) λ1^−k. A prescribed stretch is λ1 = e^l itself.
-Slope controlled(Control control, const StripPoint& point, Place at) {
+/// σ λ1^−k with the measured λ1: ∂/∂l = (∂σ/∂l − k σ ∂ ln λ1/∂l) λ1^−k. A prescribed stretch is the felt e^l itself.
+Slope controlled(Control control, const StripPoint& point, const RestLength& rest, Place at) {
   if (control == Control::stretch) {
     const double stretch = std::exp(at.l);
     return {stretch, stretch, 0};
   }
-  const double k = power(control), factor = std::exp(-k * at.l);
+  const RestLength::Measured measured = rest.measured(at.l);
+  const double k = power(control), factor = std::exp(-k * measured.l);
   const Slope& stress = point.stress();
-  return {stress.value * factor, (stress.by_l - k * stress.value) * factor, stress.by_y * factor};
+  return {stress.value * factor, (stress.by_l - k * stress.value * measured.by_felt) * factor, stress.by_y * factor};
 }
 
-bool find_equilibrium(StripPoint& point, Control control, double value, double time_step, Place& at,
-                      bool by_parameters) {
+bool find_equilibrium(StripPoint& point, const RestLength& rest, Control control, double value, double time_step,
+                      Place& at, bool by_parameters) {
   // A stretch is known: the lateral faces begin where an isotropic strip would have them.
   Place guess = at;
   if (control == Control::stretch) {
     guess.l = std::log(value);
     guess.y -= guess.l - at.l;
   }
-  if (newton(point, control, value, time_step, guess, by_parameters)) {
+  if (newton(point, rest, control, value, time_step, guess, by_parameters)) {
     at = guess;
     return true;
   }
   if (!point.evaluate(at.l, at.y, time_step)) return false;
-  const double before = controlled(control, point, at).value;
+  const double before = controlled(control, point, rest, at).value;
   for (const int parts : {8, 64}) {
     Place trial = at;
     bool found = true;
     for (int k = 1; k <= parts && found; ++k) {
       const double part = k == parts ? value : before + (value - before) * k / parts;
-      found = newton(point, control, part, time_step, trial, by_parameters && k == parts);
+      found = newton(point, rest, control, part, time_step, trial, by_parameters && k == parts);
     }
     if (!found) continue;
     at = trial;

@@ -30,6 +30,7 @@ struct Strip {
   std::vector<Channel> channels;
   std::size_t rows = 0;
   bool timed = false;
+  bool has_set = false;   ///< the test's own parameter is that of the permanent set
   const char* type = "";  ///< begins messages
 };
 

@@ -19,7 +19,7 @@ constexpr double first_part = 1e-4;
 class LoadingSegments final : public Test {
  public:
   explicit LoadingSegments(const TestSetup& setup)
-      : strip_(strip_of(setup, "loading_segments")), description_(description_of_strip()) {
+      : strip_(strip_of(setup, "loading_segments")), description_(description_of_strip(strip_)) {
     time_.assign(setup.rows.time.begin(), setup.rows.time.end());
     if (time_.empty())
       throw InputError("loading_segments: no rows, or no column mapped to 'time'; map one in \"columns\"");
@@ -108,9 +108,10 @@ TestFactory loading_segments_factory() {
           {direction_option(), std::move(segments),
            Option::integer("steps", 20, {1, 10000}, "Steps of the simulation in each segment, beside the rows."),
            Option::quantity("gauge_length", "mm", 0, "Unloaded length; segments of displacement need it.", 0.0),
-           Option::quantity("area", "mm2", 0, "Unloaded section; segments of force need it.", 0.0)},
+           Option::quantity("area", "mm2", 0, "Unloaded section; segments of force need it.", 0.0), set_option()},
           std::move(observables),
-          [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<LoadingSegments>(setup); }};
+          [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<LoadingSegments>(setup); },
+          set_parameter()};
 }
 
 }  // namespace tunica::controlled_strip

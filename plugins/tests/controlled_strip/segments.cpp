@@ -74,7 +74,8 @@ class Reader {
 
   void hold(const Json& time) {
     if (segments_.empty())
-      refuse("is a hold, and nothing was prescribed before it", "expected a ramp first, with \"duration\": 0 for a jump");
+      refuse("is a hold, and nothing was prescribed before it",
+             "expected a ramp first, with \"duration\": 0 for a jump");
     Segment held = segments_.back();
     held.hold = true;
     add(held, number(time, "s", "the time of a hold"));

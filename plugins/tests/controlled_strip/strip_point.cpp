@@ -18,7 +18,7 @@ bool StripPoint::can_be_followed(const Model& model) {
 }
 
 StripPoint::StripPoint(const Model& model, std::span<const double> parameters, std::size_t loaded, bool timed,
-                       bool by_parameters)
+                       bool by_parameters, std::size_t others)
     : model_(model),
       parameters_(parameters),
       axis_{loaded, 1 - loaded, 2},
@@ -27,9 +27,10 @@ StripPoint::StripPoint(const Model& model, std::span<const double> parameters, s
       carries_(by_parameters && followed_),
       elastic_count_(model.elastic().describe().parameters.size()),
       history_(followed_ ? model.describe().axis_history_size : model.describe().history_size),
-      full_(1 + moving + (carries_ ? parameters.size() : 0)) {
+      carried_(carries_ ? parameters.size() + others : 0),
+      full_(1 + moving + carried_) {
   past_.assign(history_ * (followed_ ? full_ : 1), 0.0);
-  stress_dp_.assign(carries_ ? parameters.size() : 0, 0.0);
+  stress_dp_.assign(carried_, 0.0);
   lateral_dp_ = stress_dp_;
 }
 
@@ -99,7 +100,7 @@ bool StripPoint::on_axes(double time_step, bool at_rest, bool by_parameters) {
   const std::array<const double*, 3> g{g_rows_.data() + axis_[0] * width, g_rows_.data() + axis_[1] * width,
                                        g_rows_.data() + 2 * width};
   take_slopes(g, moving);
-  for (std::size_t j = 0; by_parameters && j < parameters_.size(); ++j) {
+  for (std::size_t j = 0; by_parameters && j < carried_; ++j) {
     const std::size_t k = 1 + moving + j;
     stress_dp_[j] = 2 * (c_[0] * g[0][k] - c_[2] * g[2][k]);
     lateral_dp_[j] = c_[1] * g[1][k] - c_[2] * g[2][k];

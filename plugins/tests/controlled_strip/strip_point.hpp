@@ -26,9 +26,10 @@ struct Slope {
 class StripPoint {
  public:
   /// `loaded` is the axis that the strip is pulled along, 0 or 1; `timed`: whether there is a clock. With
-  /// `by_parameters`, derivatives are carried. Model and parameters outlive this.
-  StripPoint(const Model& model, std::span<const double> parameters, std::size_t loaded, bool timed,
-             bool by_parameters);
+  /// `by_parameters`, derivatives are carried, by those of the model and by `others`, which the material feels through
+  /// its path alone. Model and parameters outlive this.
+  StripPoint(const Model& model, std::span<const double> parameters, std::size_t loaded, bool timed, bool by_parameters,
+             std::size_t others = 0);
 
   /// Whether derivatives by parameters can be carried.
   static bool can_be_followed(const Model& model);
@@ -61,7 +62,7 @@ class StripPoint {
   std::span<const double> parameters_;
   std::array<std::size_t, 3> axis_;  ///< of the model: along, across, normal
   bool timed_, followed_, carries_, first_ = true;
-  std::size_t elastic_count_, history_, full_;  ///< full_ = width of a row with parameters
+  std::size_t elastic_count_, history_, carried_, full_;  ///< full_ = width of a row with parameters
   std::array<double, 3> c_{1, 1, 1};
   Slope stress_, lateral_;
   std::vector<double> stress_dp_, lateral_dp_;
