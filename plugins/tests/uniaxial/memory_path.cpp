@@ -154,7 +154,8 @@ Status MemoryPath::predict(const Strip& strip, const TestInput& input, const Tes
   const auto step_on = [&] {
     for (std::size_t i = 0; i < n; ++i) m.u[i] *= std::exp(m.step[i]);
   };
-  bool found = false;
+  // Symmetry has given the answer already: one pass then has values and derivatives.
+  bool found = symmetric && parameters;
   for (int k = 0; k < iterations && !found; ++k) {
     if (Status status = pass.run(false); !status.ok()) return status;
     if (!pass.sound()) break;
