@@ -137,6 +137,22 @@ for name, tests in (("inflation", ["test1", "test2", "test3"]), ("force_length",
     assert all(test["data"]["columns"] == by_hand and "cycle" not in test["data"] for test in proposed.values()), proposed
     rig.tunica(program, "check", target)
 
+# Time and force alone: a relaxation curve, held at a stretch that only the user knows. Creep is driven by the force.
+held = table("held.csv", ["Time [min],Load [N]", "0,1.2", "1,1.0", "10,0.9", "30,0.85"])
+experiment, said = imported(held, "--test", "loading_segments", "--area", "6 mm2", "--set", "segments=1.3")
+assert experiment["tests"]["held"]["segments"] == [{"ramp": {"stretch": 1.3}, "duration": 0}, {"hold": "30 min"}], experiment
+printed, _ = rig.tunica(program, "check", folder / "held.json")
+assert "4 rows, 141.7 … 200 kPa nominal stress" in words(printed) and "over time 0 … 1800 s" in words(printed), printed
+_, said = imported(held, "--test", "loading_segments", "--area", "6 mm2", code=2)
+assert "--set segments=STRETCH" in said, said
+_, said = imported(held, "--test", "loading_segments", "--area", "6 mm2", "--set", "segments=true", code=2)
+assert "expected the stretch of a hold as a number" in said, said
+creep = table("creep.csv", ["Time [s],Load [N],Extension [mm]", "0,1,0.5", "10,1,0.8", "100,1,1.1"])
+experiment, said = imported(creep, "--test", "creep", "--area", "6 mm2", "--gauge-length", "20 mm")
+assert experiment["tests"]["creep"]["data"]["columns"] == {"time": "Time", "force": "Load", "displacement": "Extension"}, experiment
+printed, _ = rig.tunica(program, "check", folder / "creep.json")
+assert "stretch = 1 + displacement / 20 mm, from 'Extension' in mm" in words(printed), printed
+
 # Bad input: what and where, exit code 2.
 for file, options, expected in [
         (strip, ("--column", "froce=Kraft"), "Did you mean 'force'?"),

@@ -17,7 +17,15 @@ struct CreepSetup {
   std::string direction = "circumferential";
   std::int64_t steps = 1;
   bool permanent_set = false;
+  std::string shift = "none";
+  double temperature = 0, reference = 0;
 };
+
+inline void set_temperature(TestSetup& setup, const std::string& shift, double temperature, double reference) {
+  setup.options.set("shift", shift);
+  setup.options.set("temperature", temperature);
+  setup.options.set("reference_temperature", reference);
+}
 
 inline std::unique_ptr<Test> make_creep(const std::vector<double>& stress, const std::vector<double>& time,
                                         const CreepSetup& creep = {}) {
@@ -25,6 +33,7 @@ inline std::unique_ptr<Test> make_creep(const std::vector<double>& stress, const
   setup.options.set("direction", creep.direction);
   setup.options.set("steps", creep.steps);
   setup.options.set("permanent_set", creep.permanent_set);
+  set_temperature(setup, creep.shift, creep.temperature, creep.reference);
   setup.rows.count = stress.size();
   setup.rows.abscissae = {{"stress", stress}};
   setup.rows.channels = creep.channels;
@@ -44,6 +53,7 @@ inline std::unique_ptr<Test> make_segments(const std::string& segments, const st
   setup.options.set("gauge_length", 20.0);
   setup.options.set("area", 10.0);
   setup.options.set("permanent_set", permanent_set);
+  set_temperature(setup, "none", 0, 0);
   setup.rows.count = time.size();
   setup.rows.channels = std::move(channels);
   setup.rows.time = time;

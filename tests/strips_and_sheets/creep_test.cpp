@@ -146,6 +146,57 @@ TEST(Creep, SaysWhichRowAMaterialDoesNotBear) {
   EXPECT_THAT(found.status.reason(), HasSubstr("row 2 (stress 1000000.000000 kPa)"));
 }
 
+TEST(Creep, AtATemperatureIsThatOfOtherTimes) {
+  const std::vector<double> stress{2, 6, 14, 14, 14, 9, 3, 0, 0, 11, 21};
+  const std::vector<double> p{18.668, 0.1367, 24.905, 0.2912, 46.44, 0.8, 5};
+  const auto model = viscous("gho", 1);
+  for (const std::string shift : {"wlf", "arrhenius"}) {
+    const std::vector<double> own =
+        shift == "wlf" ? std::vector<double>{0.2, 8.86, 101.6} : std::vector<double>{0.2, 60};
+    CreepSetup setup{.channels = {"stretch", "transverse_stretch"}, .permanent_set = true};
+    const double a = shift == "wlf" ? std::pow(10, -8.86 * 12 / (101.6 + 12))
+                                    : std::exp(60 / 8.31446261815324e-3 * (1 / 312.0 - 1 / 300.0));
+    std::vector<double> times = clock;
+    for (double& t : times) t /= a;
+    const auto expected = predicted(*make_creep(stress, times, setup), *model, p, false, {0.2}).values;
+    setup.shift = shift;
+    setup.temperature = 312;
+    setup.reference = 300;
+    const auto test = make_creep(stress, clock, setup);
+    const Predicted exact = predicted(*test, *model, p, true, own);
+    ASSERT_TRUE(exact.status.ok()) << exact.status.reason();
+    const std::size_t size = exact.values.size();
+    for (std::size_t i = 0; i < size; ++i) EXPECT_NEAR(exact.values[i], expected[i], 1e-9) << shift;
+    for (std::size_t j = 0; j < own.size(); ++j) {
+      const double h = 1e-5 * own[j];
+      std::vector<double> up = own, down = own;
+      up[j] += h;
+      down[j] -= h;
+      const auto ahead = predicted(*test, *model, p, false, up).values,
+                 behind = predicted(*test, *model, p, false, down).values;
+      for (std::size_t i = 0; i < size; ++i) {
+        const double difference = (ahead[i] - behind[i]) / (2 * h);
+        EXPECT_NEAR(exact.jacobian[(p.size() + j) * size + i], difference, 1e-8 / own[j] + 1e-6 * std::abs(difference))
+            << shift << ", parameter " << j << ", value " << i;
+      }
+    }
+  }
+}
+
+TEST(Creep, SaysWhatAShiftNeeds) {
+  const auto refusal = [](const CreepSetup& setup, const std::vector<double>& time) -> std::string {
+    try {
+      make_creep({1, 2}, time, setup);
+    } catch (const InputError& problem) {
+      return problem.what();
+    }
+    return "accepted";
+  };
+  EXPECT_THAT(refusal({.temperature = 300}, {0, 1}), HasSubstr("changes nothing without \"shift\""));
+  EXPECT_THAT(refusal({.shift = "wlf", .temperature = 300}, {0, 1}), HasSubstr("give both"));
+  EXPECT_THAT(refusal({.shift = "wlf", .temperature = 300, .reference = 290}, {}), HasSubstr("without a time"));
+}
+
 TEST(Creep, RefusesRowsThatAreNone) {
   EXPECT_THROW(make_creep({}, {}), InputError);
   EXPECT_THROW(make_creep({1, NAN}, {}), InputError);

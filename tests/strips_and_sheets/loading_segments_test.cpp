@@ -153,6 +153,7 @@ TEST(LoadingSegments, NeedSizesForDisplacementsAndForces) {
   setup.options.set("gauge_length", 0.0);
   setup.options.set("area", 0.0);
   setup.options.set("permanent_set", false);
+  set_temperature(setup, "none", 0, 0);
   setup.rows = {1, {}, {"stress"}, {}};
   const std::vector<double> time{0.5};
   setup.rows.time = time;

@@ -78,4 +78,19 @@ void add_tube_options(Json& entry, const TestFactory& factory, const Answers& an
         ask({"Outer radius of the unloaded tube, with its unit", "--set outer_radius=LENGTH", "2.3 mm", true});
 }
 
+void add_hold(Json& entry, double last, const std::string& unit, const Ask& ask) {
+  if (!entry.contains("segments"))
+    entry["segments"] =
+        Json::parse(ask({"Stretch at which the specimen is held from the beginning; 1 = the unloaded length",
+                         "--set segments=STRETCH", "1.5"}),
+                    nullptr, false);
+  const Json given = entry["segments"];
+  if (given.is_array()) return;
+  if (!given.is_number())
+    throw InputError(
+        "--set segments: expected the stretch of a hold as a number, or a list of segments as JSON. Correct it");
+  const Json hold = unit.empty() ? Json(last) : Json(fmt::format("{:g} {}", last, unit));
+  entry["segments"] = Json::array({{{"ramp", {{"stretch", given}}}, {"duration", 0}}, {{"hold", hold}}});
+}
+
 }  // namespace tunica::importing

@@ -21,4 +21,8 @@ void add_layout(Json& data, const Answers& answers);
 void add_tube_options(Json& entry, const TestFactory& factory, const Answers& answers, bool stretch_in_column,
                       const Ask& ask);
 
+/// The loading of a record of time alone: held at one stretch from its beginning to its end, `last` seconds or what its
+/// unit is. The stretch is asked, unless "segments" are given; a number there is the stretch.
+void add_hold(Json& entry, double last, const std::string& unit, const Ask& ask);
+
 }  // namespace tunica::importing

@@ -352,6 +352,12 @@ class File {
     const bool stretched = std::any_of(mapped_.begin(), mapped_.end(), [&](const auto& one) {
       return data::quantity_named(one.first, factory_->observables)->observable->name == "axial_stretch";
     });
+    if (type_ == "loading_segments")
+      for (const ColumnGuess& column : columns_)
+        if (column.quantity == "time") {
+          add_hold(entry, column.largest, column.unit, ask_);
+          break;
+        }
     if (type_ == "thick_wall_pressurisation" || type_ == "fe_pressurisation")
       add_tube_options(entry, *factory_, answers_, stretched, ask_);
   }
@@ -381,7 +387,10 @@ Proposal propose(const Answers& answers, const std::filesystem::path& folder, co
   std::string model = answers.model;
   for (const std::filesystem::path& file : answers.files) {
     File reading(file, answers, catalogue, ask, proposal.notes);
-    if (model.empty()) model = reading.type() == "uniaxial" || reading.type() == "biaxial" ? "ogden" : "hgo";
+    if (model.empty())
+      model = std::set<std::string>{"uniaxial", "biaxial", "creep", "loading_segments"}.contains(reading.type())
+                  ? "ogden"
+                  : "hgo";
     std::vector<std::string> names;
     for (auto& [name, entry] : reading.tests(folder)) {
       if (tests.contains(name))

@@ -42,22 +42,43 @@ std::vector<Observable> lateral_channels() {
           {"normal_stretch", "1", Role::channel, false, "Stretch through the thickness.", Observable::Kind::stretch}};
 }
 
-Option set_option() {
-  return {"permanent_set", Option::Kind::flag, false,
-          "Whether the strip stays longer after it has been stretched, by a parameter of the test."};
+namespace {
+
+Parameter set_parameter() {
+  return {"permanent_set",
+          "1",
+          0.1,
+          0,
+          0.9,
+          Scale::linear,
+          "Part of the largest stretch less one by which the strip stays longer.",
+          "Diani, Fayolle, Gilormini 2009"};
 }
 
-std::vector<Parameter> set_parameter() {
-  return {{"permanent_set", "1", 0.1, 0, 0.9, Scale::linear,
-           "Part of the largest stretch less one by which the strip stays longer.", "Diani, Fayolle, Gilormini 2009"}};
+}  // namespace
+
+void add_common_options(std::vector<Option>& options) {
+  options.push_back({"permanent_set", Option::Kind::flag, false,
+                     "Whether the strip stays longer after it has been stretched, by a parameter of the test."});
+  options.push_back(
+      Option::quantity("temperature", "K", 0, "Temperature of the test; the option shift needs it.", 0.0));
+  for (Option& option : temperature_shift::shift_options()) options.push_back(std::move(option));
 }
 
-TestDescription description_of_strip(const Strip& strip) {
+std::vector<Parameter> all_parameters() {
+  using temperature_shift::Shift;
+  std::vector<Parameter> all{set_parameter()};
+  for (const Shift shift : {Shift::wlf, Shift::arrhenius})
+    for (Parameter& parameter : temperature_shift::shift_parameters(shift)) all.push_back(std::move(parameter));
+  return all;
+}
+
+TestDescription description_of_strip(const Strip& strip, const Temperature& temperature) {
   TestDescription description;
-  if (strip.has_set) {
-    description.parameters = set_parameter();
-    description.nulls = {std::numeric_limits<double>::quiet_NaN()};
-  }
+  if (strip.has_set) description.parameters.push_back(set_parameter());
+  for (Parameter& parameter : temperature_shift::shift_parameters(temperature.shift))
+    description.parameters.push_back(std::move(parameter));
+  description.nulls.assign(description.parameters.size(), std::numeric_limits<double>::quiet_NaN());
   description.diagnostics = {"transverse_stretch", "normal_stretch"};
   description.diagnostic_units = {"1", "1"};
   description.path_derivatives = true;

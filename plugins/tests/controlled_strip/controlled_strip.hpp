@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "follow.hpp"
+#include "shifted.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::controlled_strip {
@@ -18,11 +18,12 @@ Control measure_of(const std::string& stress_measure);
 Option direction_option();
 /// The measured stretches across and through the strip.
 std::vector<Observable> lateral_channels();
-/// The flag of the permanent set, and the parameter that it brings.
-Option set_option();
-std::vector<Parameter> set_parameter();
+/// The options that both share, appended: the permanent set, and the temperature with its shift.
+void add_common_options(std::vector<Option>& options);
+/// Every parameter that they bring.
+std::vector<Parameter> all_parameters();
 /// Diagnostics, parameters and promises of both.
-TestDescription description_of_strip(const Strip& strip);
+TestDescription description_of_strip(const Strip& strip, const Temperature& temperature);
 
 TestFactory creep_factory();
 TestFactory loading_segments_factory();

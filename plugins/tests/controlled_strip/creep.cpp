@@ -20,7 +20,8 @@ class Creep final : public Test {
  public:
   explicit Creep(const TestSetup& setup)
       : strip_(strip_of(setup, "creep")),
-        description_(description_of_strip(strip_)),
+        temperature_(temperature_of(setup, "creep")),
+        description_(description_of_strip(strip_, temperature_)),
         parts_(setup.options.count("steps")) {
     for (const auto& column : setup.rows.abscissae)
       if (column.observable == "stress") stress_.assign(column.values.begin(), column.values.end());
@@ -52,11 +53,12 @@ class Creep final : public Test {
       }
       steps.push_back({strip_.timed ? time_[i] : 0, strip_.measure, stress[i], 0, false, i});
     }
-    return follow(strip_, steps, input, output);
+    return follow_shifted(strip_, temperature_, steps, input, output);
   }
 
  private:
   Strip strip_;
+  Temperature temperature_;
   TestDescription description_;
   std::size_t parts_;
   std::vector<double> stress_, time_;
@@ -73,14 +75,16 @@ TestFactory creep_factory() {
       {"time", "s", Role::time, false, "Time since the unloaded state.", Kind::plain},
       {"stretch", "1", Role::channel, false, "Measured stretch along the strip.", Kind::stretch}};
   for (Observable& lateral : lateral_channels()) observables.push_back(std::move(lateral));
+  std::vector<Option> options{
+      direction_option(), Option::integer("steps", 1, {1, 1000}, "Steps of the simulation from one row to the next.")};
+  add_common_options(options);
   return {"creep",
           "A strip under a prescribed stress or force, lateral faces free: creep, recovery, cycles of load.",
           "Findley, Lai, Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials (1976)",
-          {direction_option(),
-           Option::integer("steps", 1, {1, 1000}, "Steps of the simulation from one row to the next."), set_option()},
+          std::move(options),
           std::move(observables),
           [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Creep>(setup); },
-          set_parameter()};
+          all_parameters()};
 }
 
 }  // namespace tunica::controlled_strip

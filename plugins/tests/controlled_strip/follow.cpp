@@ -165,7 +165,7 @@ Status follow(const Strip& strip, std::span<const LoadStep> steps, const TestInp
   if (!walk.begin()) return Status::failed(begin + "the model fails at rest: " + walk.failure());
   double before = 0;
   for (const LoadStep& step : steps) {
-    if (!walk.step(step, std::max(0.0, step.time - before)))
+    if (!walk.step(step, strip.time_factor * std::max(0.0, step.time - before)))
       return Status::failed(begin + "no equilibrium at " + step_name(step, walk.wanted()) +
                             (walk.failure().empty() ? ": the material does not bear the load, or its energy overflows"
                                                     : ": " + walk.failure()));

@@ -30,8 +30,9 @@ struct Strip {
   std::vector<Channel> channels;
   std::size_t rows = 0;
   bool timed = false;
-  bool has_set = false;   ///< the test's own parameter is that of the permanent set
-  const char* type = "";  ///< begins messages
+  double time_factor = 1;  ///< of all times: 1/a_T
+  bool has_set = false;    ///< the test's own parameter is that of the permanent set
+  const char* type = "";   ///< begins messages
 };
 
 /// "row 3 (stress 12.5)" and the like, for messages.

@@ -19,7 +19,9 @@ constexpr double first_part = 1e-4;
 class LoadingSegments final : public Test {
  public:
   explicit LoadingSegments(const TestSetup& setup)
-      : strip_(strip_of(setup, "loading_segments")), description_(description_of_strip(strip_)) {
+      : strip_(strip_of(setup, "loading_segments")),
+        temperature_(temperature_of(setup, "loading_segments")),
+        description_(description_of_strip(strip_, temperature_)) {
     time_.assign(setup.rows.time.begin(), setup.rows.time.end());
     if (time_.empty())
       throw InputError("loading_segments: no rows, or no column mapped to 'time'; map one in \"columns\"");
@@ -32,7 +34,7 @@ class LoadingSegments final : public Test {
   [[nodiscard]] const TestDescription& describe() const override { return description_; }
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
   Status predict(const TestInput& input, const TestOutput& output) const override {
-    return follow(strip_, steps_, input, output);
+    return follow_shifted(strip_, temperature_, steps_, input, output);
   }
 
  private:
@@ -82,6 +84,7 @@ class LoadingSegments final : public Test {
   }
 
   Strip strip_;
+  Temperature temperature_;
   TestDescription description_;
   std::vector<LoadStep> steps_;
   std::vector<double> time_;
@@ -101,17 +104,20 @@ TestFactory loading_segments_factory() {
   Option segments = Option::json("segments", std::nullopt,
                                  "The loading from rest: a list of ramps, holds and cycles, each with its time.");
   segments.schema = R"({"type": "array", "minItems": 1, "items": {"type": "object"}})";
+  std::vector<Option> options{
+      direction_option(), std::move(segments),
+      Option::integer("steps", 20, {1, 10000}, "Steps of the simulation in each segment, beside the rows."),
+      Option::quantity("gauge_length", "mm", 0, "Unloaded length; segments of displacement need it.", 0.0),
+      Option::quantity("area", "mm2", 0, "Unloaded section; segments of force need it.", 0.0)};
+  add_common_options(options);
   return {"loading_segments",
           "A strip whose loading is stated in segments by stretch, displacement, stress or force: relaxation, creep, "
           "recovery.",
           "Findley, Lai, Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials (1976)",
-          {direction_option(), std::move(segments),
-           Option::integer("steps", 20, {1, 10000}, "Steps of the simulation in each segment, beside the rows."),
-           Option::quantity("gauge_length", "mm", 0, "Unloaded length; segments of displacement need it.", 0.0),
-           Option::quantity("area", "mm2", 0, "Unloaded section; segments of force need it.", 0.0), set_option()},
+          std::move(options),
           std::move(observables),
           [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<LoadingSegments>(setup); },
-          set_parameter()};
+          all_parameters()};
 }
 
 }  // namespace tunica::controlled_strip

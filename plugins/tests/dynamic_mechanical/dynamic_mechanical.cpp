@@ -13,14 +13,15 @@
 #include <limits>
 #include <memory>
 
+#include "../temperature_shift/temperature_shift.hpp"
 #include "small_oscillation.hpp"
-#include "temperature_shift.hpp"
 #include "tunica/detail/safeguarded_newton.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::dynamic_mechanical {
 namespace {
 
+using namespace temperature_shift;
 using Complex = std::complex<double>;
 constexpr double pi = 3.14159265358979323846;
 
@@ -266,9 +267,7 @@ TestFactory factory() {
        Option::choice("direction", axes, "circumferential", "Where the strip is pulled, or the plate moves."),
        Option::choice("normal", axes, "axial", "Of shear: the normal of the plates."),
        Option::number("static_stretch", 1, {0.01, 100}, "Stretch that the oscillation is about, if no column has it."),
-       Option::choice("shift", {"none", "wlf", "arrhenius"}, "none",
-                      "How the temperature shifts frequencies: time-temperature superposition."),
-       Option::quantity("reference_temperature", "K", 0, "Temperature at which frequencies are not shifted.", 0.0)},
+       shift_options()[0], shift_options()[1]},
       {{"frequency", "Hz", Role::abscissa, true, "Frequency of the oscillation.", Kind::plain},
        {"static_stretch", "1", Role::abscissa, false, "Stretch that the oscillation is about.", Kind::stretch},
        {"temperature", "K", Role::abscissa, false, "Temperature of the row; needs the option shift.", Kind::plain},

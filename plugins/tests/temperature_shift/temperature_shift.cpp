@@ -3,8 +3,14 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
-namespace tunica::dynamic_mechanical {
+namespace tunica::temperature_shift {
+namespace {
+
+constexpr double gas_constant = 8.31446261815324e-3;  // kJ/(mol K)
+
+}  // namespace
 
 Shift shift_named(const std::string& name) {
   return name == "wlf" ? Shift::wlf : name == "arrhenius" ? Shift::arrhenius : Shift::none;
@@ -28,10 +34,24 @@ double shift_factor(Shift shift, double T, double T0, std::span<const double> pa
     return std::pow(10, -parameters[0] * (T - T0) / below);
   }
   if (shift == Shift::arrhenius) {
-    constexpr double R = 8.31446261815324e-3;  // kJ/(mol K)
-    return std::exp(parameters[0] / R * (1 / T - 1 / T0));
+    return std::exp(parameters[0] / gas_constant * (1 / T - 1 / T0));
   }
   return 1;
 }
 
-}  // namespace tunica::dynamic_mechanical
+std::vector<double> shift_slopes(Shift shift, double T, double T0, std::span<const double> parameters) {
+  if (shift == Shift::wlf) {
+    const double below = parameters[1] + T - T0;
+    return {-std::numbers::ln10 * (T - T0) / below, std::numbers::ln10 * parameters[0] * (T - T0) / (below * below)};
+  }
+  if (shift == Shift::arrhenius) return {(1 / T - 1 / T0) / gas_constant};
+  return {};
+}
+
+std::array<Option, 2> shift_options() {
+  return {Option::choice("shift", {"none", "wlf", "arrhenius"}, "none",
+                         "How the temperature shifts times: time-temperature superposition."),
+          Option::quantity("reference_temperature", "K", 0, "Temperature at which nothing is shifted.", 0.0)};
+}
+
+}  // namespace tunica::temperature_shift
