@@ -46,6 +46,8 @@ TEST(LoadingPath, HasAnUnknownBeginningWhereItStartsFarFromRestAndUnloads) {
   EXPECT_EQ(past("stretch,stress [kPa]\n1.5,20\n1.3,9\n1.1,2\n1.5,19\n", declared), Past::starts_unloading);
   EXPECT_EQ(past("stretch,stress [kPa]\n1.4,15\n1.5,20\n1.3,9\n1.1,2\n", declared), Past::known);  // goes on loading
   EXPECT_EQ(past("stretch,stress [kPa]\n1.5,20\n1.5,19\n1.5,18\n", declared), Past::known);        // a hold
+  EXPECT_EQ(past("stretch,stress [kPa]\n1.5,20\n1.5,18\n1.5,17\n1.5,16\n1.2,5\n1.1,2\n", declared), Past::known)
+      << "a jump, a hold, then unloading";
   EXPECT_EQ(past("stretch,stress [kPa]\n0.6,-20\n0.8,-9\n0.9,-2\n", declared), Past::starts_unloading);
   EXPECT_EQ(past("stretch,stress [kPa]\n1.1,2\n1,0\n1.5,20\n1,0\n", declared), Past::known);  // begins near rest
 }

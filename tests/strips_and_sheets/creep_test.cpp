@@ -77,6 +77,20 @@ TEST(Creep, FindsTheStretchOfARubberBand) {
   }
 }
 
+TEST(Creep, HoldsTheStretchUnderTheStressThatRelaxesThere) {
+  // P(t) = μ (λ − λ⁻²) (1 + Σ g_i e^{−t/τ_i}) is the closed form of a hold at λ after a jump.
+  constexpr double mu = 12, stretch = 1.7;
+  const std::vector<double> time{0, 0.01, 0.5, 2, 10, 11, 200, 5000};
+  std::vector<double> stress;
+  for (const double t : time)
+    stress.push_back(mu * (stretch - 1 / (stretch * stretch)) *
+                     (1 + 0.8 * std::exp(-t / 5) + 0.3 * std::exp(-t / 60) + 1.4 * std::exp(-t / 0.1)));
+  const auto test = make_creep(stress, time, {.measure = "first_piola_kirchhoff"});
+  const Predicted found = predicted(*test, *viscous("neo_hooke", 3), {mu, 0.8, 5, 0.3, 60, 1.4, 0.1});
+  ASSERT_TRUE(found.status.ok()) << found.status.reason();
+  for (std::size_t i = 0; i < time.size(); ++i) EXPECT_NEAR(found.values[i], stretch, 1e-12) << time[i] << " s";
+}
+
 TEST(Creep, OfASmallStressIsTheClosedFormOfTheStandardLinearSolid) {
   // E(t) = 3μ (1 + g e^{−t/τ}); held at σ: ε = σ/(3μ) (1 − g/(1 + g) e^{−t/((1 + g) τ)}), and, unloaded at t1, what is
   // left of it. Strains of 1e-7 are linear to 1e-7 of themselves; steps of 1/2000 τ leave their square.

@@ -16,6 +16,8 @@ namespace {
 
 constexpr double far_from_rest = 0.5, clearly_moved = 0.1, turned = 0.05;
 constexpr double at_rest = 0.01;  ///< of a stretch, from 1
+constexpr double held = 1e-3;     ///< of the farthest distance
+constexpr std::size_t rows_held = 4;
 
 const Observable* observable_of(const std::string& name, const std::vector<Observable>& observables) {
   for (const Observable& observable : observables)
@@ -39,7 +41,11 @@ bool starts_far(const std::vector<double>& distance) {
 bool starts_unloading(const std::vector<double>& path, double rest) {
   const std::vector<double> distance = distances(path, rest);
   if (!starts_far(distance)) return false;
-  const double step = clearly_moved * *std::max_element(distance.begin(), distance.end());
+  const double farthest = *std::max_element(distance.begin(), distance.end()), step = clearly_moved * farthest;
+  // Creep and relaxation jump to where they are held: that is a loading, which no row is taken of.
+  const auto left = std::find_if(distance.begin(), distance.end(),
+                                 [&](double one) { return std::abs(one - distance.front()) > held * farthest; });
+  if (left - distance.begin() >= static_cast<std::ptrdiff_t>(rows_held)) return false;
   const auto moved = std::find_if(distance.begin(), distance.end(),
                                   [&](double one) { return std::abs(one - distance.front()) > step; });
   return moved != distance.end() && *moved < distance.front();

@@ -20,12 +20,13 @@ bool StripPoint::can_be_followed(const Model& model) {
 StripPoint::StripPoint(const Model& model, std::span<const double> parameters, std::size_t loaded, bool timed,
                        bool by_parameters, std::size_t others)
     : model_(model),
+      elastic_(model.elastic()),
       parameters_(parameters),
       axis_{loaded, 1 - loaded, 2},
       timed_(timed),
       followed_(can_be_followed(model)),
       carries_(by_parameters && followed_),
-      elastic_count_(model.elastic().describe().parameters.size()),
+      elastic_count_(elastic_.describe().parameters.size()),
       history_(followed_ ? model.describe().axis_history_size : model.describe().history_size),
       carried_(carries_ ? parameters.size() + others : 0),
       full_(1 + moving + carried_) {
@@ -51,9 +52,8 @@ bool StripPoint::evaluate(double l, double y, double time_step, bool by_paramete
 
 /// Elastic response and its derivatives by l, y and, if wanted, the parameters; then what the model remembers.
 bool StripPoint::on_axes(double time_step, bool at_rest, bool by_parameters) {
-  const Model& elastic = model_.elastic();
   const std::size_t width = by_parameters ? full_ : 1 + moving;
-  const bool energies = elastic.describe().energy_derivatives;
+  const bool energies = elastic_.describe().energy_derivatives;
   std::array<double, 3> c;
   for (std::size_t a = 0; a < 3; ++a) c[axis_[a]] = c_[a];
   double energy = 0;
@@ -61,8 +61,8 @@ bool StripPoint::on_axes(double time_step, bool at_rest, bool by_parameters) {
   std::array<double, 6> hessian;
   gradient_dp_.resize(by_parameters ? 3 * elastic_count_ : 0);
   energy_dp_.resize(by_parameters && energies ? elastic_count_ : 0);
-  const Status status = elastic.evaluate_axes({1, c, parameters_.first(elastic_count_)},
-                                              {{&energy, 1}, gradient, hessian, gradient_dp_, energy_dp_});
+  const Status status = elastic_.evaluate_axes({1, c, parameters_.first(elastic_count_)},
+                                               {{&energy, 1}, gradient, hessian, gradient_dp_, energy_dp_});
   if (!status.ok()) {
     failure_ = status.reason();
     return false;

@@ -58,7 +58,7 @@ class StripPoint {
 
   static constexpr std::size_t moving = 2;  ///< directions l and y
 
-  const Model& model_;
+  const Model &model_, &elastic_;
   std::span<const double> parameters_;
   std::array<std::size_t, 3> axis_;  ///< of the model: along, across, normal
   bool timed_, followed_, carries_, first_ = true;
