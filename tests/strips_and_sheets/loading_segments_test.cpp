@@ -146,6 +146,14 @@ TEST(LoadingSegments, SayWhichSegmentIsWrongAndWhatToDo) {
               AllOf(HasSubstr("row 2 is at 3.000000 s"), HasSubstr("lengthen the segments")));
 }
 
+TEST(LoadingSegments, RefuseMoreStepsThanASimulationCanHave) {
+  EXPECT_THAT(
+      [] {
+        make_segments(R"([{"cycle": {"stretch": [1, 2]}, "duration": 1, "count": 10000}])", {0.5}, {"stress"}, 10000);
+      },
+      ::testing::ThrowsMessage<InputError>(HasSubstr("would take 200000000.000000 steps")));
+}
+
 TEST(LoadingSegments, NeedSizesForDisplacementsAndForces) {
   TestSetup setup;
   setup.options.set("direction", std::string("axial"));

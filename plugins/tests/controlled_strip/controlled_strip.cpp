@@ -31,6 +31,13 @@ Strip strip_of(const TestSetup& setup, const char* type) {
   return strip;
 }
 
+void check_steps(const char* type, double count) {
+  constexpr double most = 1e7;
+  if (count > most)
+    throw InputError(std::string(type) + ": the simulation would take " + std::to_string(count) +
+                     " steps, more than 10000000; lower \"steps\", or leave out rows or cycles");
+}
+
 Option direction_option() {
   return Option::choice("direction", {"circumferential", "axial"}, {}, "Material axis the strip is pulled along.");
 }

@@ -14,6 +14,8 @@ namespace tunica::controlled_strip {
 Strip strip_of(const TestSetup& setup, const char* type);
 /// The measure that data state; the control of a stress in it.
 Control measure_of(const std::string& stress_measure);
+/// Refuses more steps than a simulation can have: 10 million.
+void check_steps(const char* type, double count);
 /// The option "direction".
 Option direction_option();
 /// The measured stretches across and through the strip.

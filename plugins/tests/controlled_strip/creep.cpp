@@ -30,6 +30,7 @@ class Creep final : public Test {
       if (!std::isfinite(stress_[i]))
         throw InputError("creep: row " + std::to_string(i + 1) + " has a stress that is not finite; correct the cell");
     time_.assign(setup.rows.time.begin(), setup.rows.time.end());
+    check_steps("creep", static_cast<double>(stress_.size()) * static_cast<double>(parts_));
     rows_.count = stress_.size();
     rows_.abscissae = {{"stress", stress_}};
     rows_.channels = setup.rows.channels;

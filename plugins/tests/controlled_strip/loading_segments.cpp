@@ -40,6 +40,7 @@ class LoadingSegments final : public Test {
  private:
   /// The steps of all segments, with those of the rows among them.
   void lay_out(const std::vector<Segment>& segments, std::size_t parts) {
+    check_steps("loading_segments", static_cast<double>(segments.size()) * static_cast<double>(parts));
     const double end = segments.back().to_t;
     // A clock and a sum of durations agree to rounding only.
     const double close = 1e-9 * std::max(1.0, end);
