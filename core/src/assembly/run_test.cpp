@@ -41,7 +41,7 @@ void refuse_volume(const RunTest& test, const RunModel& model) {
     throw InputError(fmt::format(
         "test '{}': it simulates a specimen that keeps its volume, and the model '{}' ('{}') changes it. Choose an "
         "incompressible model, or a test that solves for the volume: 'uniaxial', 'biaxial', 'simple_shear', "
-        "'plane_specimen', 'confined_compression', 'volumetric'",
+        "'plane_specimen', 'bulge', 'confined_compression', 'volumetric'",
         test.name, model.name, description.type));
   if (volume == Volume::free && !description.compressible)
     throw InputError(

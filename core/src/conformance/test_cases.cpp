@@ -52,7 +52,7 @@ class SetupSampler {
       const bool number = option.kind == Kind::number || option.kind == Kind::quantity;
       // A default at the least value often stands for "not given".
       if (number && (!option.fallback || std::get<double>(*option.fallback) == option.min.value_or(0)) && coin())
-        guess.options.set(option.name, std::clamp(1.1, option.min.value_or(0), option.max.value_or(2)));
+        guess.options.set(option.name, std::clamp(size_at(attempt), option.min.value_or(0), option.max.value_or(2)));
       if (option.kind == Kind::choice && !option.choices.empty() && coin())
         guess.options.set(option.name, option.choices[engine_() % option.choices.size()]);
     }
@@ -91,32 +91,53 @@ class SetupSampler {
                         [](const Observable& observable) { return observable.role == Role::abscissa; });
   }
   bool coin() { return (engine_() & 1) != 0; }
+  /// Of a length, for example. Where equal ones do not go together, some are smaller.
+  double size_at(std::size_t attempt) {
+    constexpr std::size_t equal = 64;
+    return attempt < equal || coin() ? 1.1 : 0.1;
+  }
   const TestFactory& factory_;
   Choices pinned_;
   std::mt19937_64 engine_;
   std::size_t attempt_ = 0;
 };
 
+using Candidates = std::vector<Material>;
+
 /// What came of a guess. One that is no case is refused with a reason; one that breaks a promise is a case, which the
 /// properties then fail.
 struct Attempt {
   std::shared_ptr<Test> test;
-  std::string refusal;     ///< empty = the guess is a case
-  bool no_number = false;  ///< refused since a value is no number under the status ok
+  std::size_t material = 0;  ///< of the candidates
+  std::string refusal;       ///< empty = the guess is a case
+  bool no_number = false;    ///< refused since a value is no number under the status ok
 };
-template <class Suiting>
 Attempt attempt_with(const plugins::Catalogue::Entry<TestFactory>& entry, const OwnedSetup& guess,
-                     const Suiting& suiting) {
+                     const Candidates& kept, const Candidates& changing) {
   Attempt one;
   try {
     one.test = plugins::create_bare(entry, guess.setup());
     const std::vector<double> own = own_values(one.test->describe());
-    const Material& material = suiting(*one.test);
-    const Prediction found = predict(*one.test, {*material.model, material.parameters, own});
-    if (!found.status.ok())
-      one.refusal = found.status.reason().empty() ? "it fails without a reason" : found.status.reason();
-    else if (!std::all_of(found.values.begin(), found.values.end(), [](double x) { return std::isfinite(x); }))
-      one = {one.test, "it predicts numbers that are not finite, under the status ok", true};
+    const bool free = one.test->describe().volume == TestDescription::Volume::free;
+    std::string first;
+    for (const Material& material : free ? changing : kept) {
+      const Prediction found = predict(*one.test, {*material.model, material.parameters, own});
+      one.no_number = false;
+      if (!found.status.ok()) {
+        one.refusal = found.status.reason().empty() ? "it fails without a reason" : found.status.reason();
+      } else if (!std::all_of(found.values.begin(), found.values.end(), [](double x) { return std::isfinite(x); })) {
+        one.refusal = "it predicts numbers that are not finite, under the status ok";
+        one.no_number = true;
+        return one;
+      } else {
+        one.refusal.clear();
+        return one;
+      }
+      if (first.empty()) first = one.refusal;
+      ++one.material;
+    }
+    one.material = 0;
+    one.refusal = first;
   } catch (const InputError& problem) {
     one.refusal = problem.what();
   } catch (const MemoryFault&) {
@@ -127,26 +148,24 @@ Attempt attempt_with(const plugins::Catalogue::Entry<TestFactory>& entry, const 
 /// As synthetic_case(), with these choices made.
 TestCase found_case(const plugins::Catalogue::Entry<TestFactory>& entry, const Choices& pinned, int patience,
                     std::uint64_t seed) {
-  const Material fibrous = materials().front();
-  const Material foam{"a compressible rubber", compressible_rubber(), {30}};
+  // Fibres show more than a rubber, and some tests carry no directions.
+  const Candidates kept{materials().front(), materials().back()},
+      changing{{"a compressible rubber", compressible_rubber(), {30}}};
   SetupSampler guesses(entry.factory, pinned, seed);
   std::string last = "it declares no channel";
   std::optional<TestCase> no_number;
-  const auto suiting = [&](const Test& test) -> const Material& {
-    return test.describe().volume == TestDescription::Volume::free ? foam : fibrous;
-  };
-  const auto made = [&](OwnedSetup guess, std::shared_ptr<Test> test) -> TestCase {
-    std::vector<double> own = own_values(test->describe());
-    const Material& material = suiting(*test);
-    return {"", std::move(test), std::move(guess), std::move(own), material};
+  const auto made = [&](OwnedSetup guess, const Attempt& of) -> TestCase {
+    std::vector<double> own = own_values(of.test->describe());
+    const bool free = of.test->describe().volume == TestDescription::Volume::free;
+    return {"", of.test, std::move(guess), std::move(own), (free ? changing : kept)[of.material]};
   };
   for (int attempt = 0; attempt < patience; ++attempt) {
     OwnedSetup guess = guesses.next();
     if (guess.channels.empty()) continue;
-    Attempt one = attempt_with(entry, guess, suiting);
+    Attempt one = attempt_with(entry, guess, kept, changing);
     if (!one.refusal.empty()) {
       last = std::move(one.refusal);
-      if (one.no_number && !no_number) no_number = made(guess, std::move(one.test));
+      if (one.no_number && !no_number) no_number = made(guess, one);
       continue;
     }
     // As many channels as go together.
@@ -156,12 +175,12 @@ TestCase found_case(const plugins::Catalogue::Entry<TestFactory>& entry, const C
         continue;
       OwnedSetup more = guess;
       more.channels.push_back(observable.name);
-      if (Attempt larger = attempt_with(entry, more, suiting); larger.refusal.empty()) {
+      if (Attempt larger = attempt_with(entry, more, kept, changing); larger.refusal.empty()) {
         guess = more;
         one = std::move(larger);
       }
     }
-    return made(std::move(guess), std::move(one.test));
+    return made(std::move(guess), one);
   }
   if (no_number) return std::move(*no_number);
   throw NothingSuits(last);

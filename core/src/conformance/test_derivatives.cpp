@@ -2,6 +2,7 @@
 // Jacobians of tests against differences.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -28,6 +29,18 @@ Values typical_uncertainty(const Simulation& s, const std::vector<Difference>& d
     typical.push_back(*middle);
   }
   return typical;
+}
+
+/// As values_at(). Beyond its declared bounds a parameter may mean nothing: no numbers where the test cannot answer
+/// then.
+Values values_near(const Simulation& s, const Values& p, const Values& q) {
+  const auto& own = s.test.describe().parameters;
+  bool beyond = false;
+  for (std::size_t k = 0; k < std::min(q.size(), own.size()); ++k)
+    beyond = beyond || q[k] < own[k].min || q[k] > own[k].max;
+  if (!beyond) return values_at(s, p, q);
+  const Prediction found = predict(s.test, {s.model, p, q, {}, s.layers});
+  return found.status.ok() ? found.values : Values(size_of(s), std::numeric_limits<double>::quiet_NaN());
 }
 
 /// One column of derivatives against differences. Where these settle less sharply than the tolerance – iterations leave
@@ -87,7 +100,7 @@ Verdict jacobian_matches_differences(const Simulation& s, std::uint64_t) {
         [&](double t) {
           Values p = s.model_parameters, q = s.test_parameters;
           (j < models ? p[j] : q[j - models]) += t;
-          return values_at(s, p, q);
+          return values_near(s, p, q);
         },
         at == 0 ? 1e-3 : 1e-3 * std::abs(at));
     comparison.column(s, meter, std::span(jacobian).subspan(j * rows, rows), values, expected, parameter_name(s, j));
