@@ -76,9 +76,9 @@ struct Meridian {
       return {along * std::cos(phi), along * std::sin(phi), along * (pressure - T2 * std::sin(phi) / r) / T1,
               (T2 - T1) * along * std::cos(phi) / r};
     };
-    const auto moved = [](std::array<double, 4> y, const std::array<double, 4>& k, double by) {
-      for (std::size_t c = 0; c < 4; ++c) y[c] += by * k[c];
-      return y;
+    const auto moved = [](std::array<double, 4> at, const std::array<double, 4>& k, double by) {
+      for (std::size_t c = 0; c < 4; ++c) at[c] += by * k[c];
+      return at;
     };
     for (int i = 1; i < steps; ++i) {
       const double R = h * i;

@@ -23,11 +23,11 @@ using Kind = Option::Kind;
 
 /// Moderate values of something prescribed: growing, so that rows are in loading order.
 std::vector<double> rising(const Observable& observable, std::size_t rows, double size) {
-  const double largest = observable.unit == "kPa"   ? 10
-                         : observable.unit == "mN"  ? 20
-                         : observable.unit == "deg" ? 20
-                         : observable.unit == "s"   ? 10
-                                                    : 0.2;
+  const double largest = observable.unit == "kPa"             ? 10
+                         : observable.unit == "mN"            ? 20
+                         : observable.unit.starts_with("deg") ? 20  // also over a length
+                         : observable.unit == "s"             ? 10
+                                                              : 0.2;
   const double from = observable.kind == Observable::Kind::stretch ? 1 : 0;
   std::vector<double> values(rows);
   for (std::size_t i = 0; i < rows; ++i)

@@ -12,6 +12,7 @@ using namespace tunica;
 using Side = MechanismFactory::Side;
 
 const std::vector<std::string> tubes{"thick_wall_pressurisation", "fe_pressurisation"};
+const std::vector<std::string> tubes_and_twisted{"thick_wall_pressurisation", "fe_pressurisation", "torsion"};
 
 MechanismFactory residual_stress() {
   return {.id = "residual_stress",
@@ -37,7 +38,7 @@ MechanismFactory axial_stretch_error() {
   return {.id = "axial_stretch_error",
           .cause = "The tube was stretched more, or less, along its axis than was recorded.",
           .stage = tunica::Stage::test,
-          .applies_to = tubes,
+          .applies_to = tubes_and_twisted,
           .parameters = {{"value", "1", 0, -0.2, 0.2, Scale::linear, "True axial stretch minus the recorded one.", ""}},
           .null = 0,
           .side = Side::both,
@@ -99,7 +100,7 @@ MechanismFactory geometry_error() {
       .id = "geometry_error",
       .cause = "The wall is thicker, or thinner, than was measured; its outer radius is right.",
       .stage = tunica::Stage::test,
-      .applies_to = tubes,
+      .applies_to = tubes_and_twisted,
       .parameters = {{"gain", "1", 0, -0.5, 0.5, Scale::linear, "True over measured wall thickness, less one.", ""}},
       .null = 0,
       .side = Side::both,
