@@ -70,7 +70,7 @@ inline void expect_exact_derivatives(const Test& test, const Model& model, const
       double scale = 0;
       for (std::size_t i = k; i < k + n; ++i) scale = std::max({scale, std::abs(expected[i]), std::abs(given[i])});
       for (std::size_t i = k; i < k + n; ++i)
-        EXPECT_NEAR(given[i], expected[i], tolerance * scale + 1e-9)
+        EXPECT_NEAR(given[i], expected[i], tolerance * scale + 1e-8)
             << name << ", " << test.rows().channels[k / n] << ", row " << i - k + 1;
     }
   };

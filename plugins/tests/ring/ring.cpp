@@ -73,7 +73,7 @@ class RingPull final : public Test {
     for (std::size_t k = 0; k < channels_.size(); ++k) {
       const bool force = channels_[k] == Channel::force;
       const auto copy = [&](const std::vector<double>& from, std::size_t first, std::span<double> to) {
-        if (!to.empty()) std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(first), n, to.begin());
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[first + i];
       };
       const auto part = [&](std::span<double> of, std::size_t column) {
         return of.empty() ? of : of.subspan(column * size + k * n, n);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sphere on layers against Hertz, the published corrections and each other where both hold, and differences.
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "data/written_file.hpp"
+#include "rigs/rigs.hpp"
+
+namespace tunica::testing::indentation_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::unique_ptr<Test> make_indentation(double radius, double thickness, const std::string& law,
+                                       const std::vector<double>& depths) {
+  return make_rig("indentation", {{"radius", radius}, {"thickness", thickness}, {"law", law}}, {{"depth", depths}},
+                  {"force"});
+}
+
+// 16/9 E √R δ^(3/2) with E = 3μ; μ is 2 (c10 + c01) of Mooney's rubber and Σ μ_i α_i/2 of Ogden's.
+TEST(Indentation, OfAHalfSpaceIsHertzs) {
+  const std::vector<double> depths{0.05, 0.1, 0.2};
+  const auto test = make_indentation(2, 0, "half_space", depths);
+  Options one;
+  one.set("terms", std::int64_t{1});
+  for (const auto& [model, p, mu] : {std::tuple(make_model("neo_hooke"), std::vector<double>{30}, 30.),
+                                     std::tuple(make_model("mooney_rivlin"), std::vector<double>{10, 4}, 28.),
+                                     std::tuple(make_model("yeoh"), std::vector<double>{9, 2, 0.5}, 18.),
+                                     std::tuple(make_model("ogden", one), std::vector<double>{12, 3}, 18.)}) {
+    const auto force = predicted(*test, *model, p);
+    for (std::size_t i = 0; i < depths.size(); ++i)
+      EXPECT_NEAR(force[i] / (16. / 3 * mu * std::sqrt(2 * depths[i]) * depths[i]), 1, 1e-9);
+  }
+}
+
+// The polynomials of Dimitriadis et al. at χ = 0.5, and that a thick layer is a half-space.
+TEST(Indentation, OfALayerIsStiffer) {
+  const auto model = make_model("neo_hooke");
+  const double R = 8, h = 1, depth = 0.03125, hertz = 16. / 3 * 30 * std::sqrt(R * depth) * depth;  // χ = 0.5
+  EXPECT_NEAR(predicted(*make_indentation(R, h, "bonded", {depth}), *model, {30})[0] / hertz,
+              1 + 1.133 * 0.5 + 1.283 * 0.25 + 0.769 * 0.125 + 0.0975 * 0.0625, 1e-9);
+  EXPECT_NEAR(predicted(*make_indentation(R, h, "sliding", {depth}), *model, {30})[0] / hertz,
+              1 + 0.884 * 0.5 + 0.781 * 0.25 + 0.386 * 0.125 + 0.0048 * 0.0625, 1e-9);
+  const double half = predicted(*make_indentation(1, 0, "half_space", {0.001}), *model, {30})[0];
+  EXPECT_NEAR(predicted(*make_indentation(1, 12, "bonded", {0.001}), *model, {30})[0] / half, 1, 4e-3);
+}
+
+// Two groups, two ways, the same layer: where both were published, they agree to a few per cent.
+TEST(Indentation, HasTwoLawsOfABondedLayerThatAgree) {
+  const auto model = make_model("neo_hooke");
+  for (const double h : {0.6, 1., 3.}) {
+    const std::vector<double> depths{0.02 * std::min(h, 1.), 0.05 * std::min(h, 1.), 0.1 * std::min(h, 1.)};
+    const auto bonded = predicted(*make_indentation(1, h, "bonded", depths), *model, {30}),
+               deep = predicted(*make_indentation(1, h, "deep", depths), *model, {30});
+    for (std::size_t i = 0; i < depths.size(); ++i) EXPECT_NEAR(deep[i] / bonded[i], 1, 0.05) << h << ' ' << depths[i];
+  }
+}
+
+TEST(Indentation, HasExactDerivatives) {
+  for (const auto& [type, p] :
+       {std::pair("mooney_rivlin", std::vector<double>{10, 4}), std::pair("yeoh", std::vector<double>{9, 2, 0.5})})
+    for (const char* law : {"bonded", "sliding", "deep"})
+      expect_exact_derivatives(*make_indentation(1, 1.5, law, {0.02, 0.05, 0.1}), *make_model(type), p, {-0.01});
+}
+
+// Before it touches, the sphere bears nothing.
+TEST(Indentation, BeginsAtContact) {
+  const auto test = make_indentation(1, 0, "half_space", {-0.05, 0, 0.03});
+  const auto found = predicted(*test, *make_model("neo_hooke"), {30}, {0.01});
+  EXPECT_EQ(found[0], 0);
+  EXPECT_EQ(found[1], 0);
+  EXPECT_NEAR(found[2], 16. / 3 * 30 * std::pow(0.02, 1.5), 1e-10);
+}
+
+TEST(Indentation, RefusesWhatItsLawsAreNotOf) {
+  const auto refusal = [](double radius, double thickness, const std::string& law, double depth) {
+    return message_of<InputError>([&] { (void)make_indentation(radius, thickness, law, {depth}); });
+  };
+  EXPECT_THAT(refusal(0, 0, "half_space", 0.1), HasSubstr("\"radius\" is 0 mm"));
+  EXPECT_THAT(refusal(1, 0, "bonded", 0.1), HasSubstr("give the thickness of the unloaded layer"));
+  EXPECT_THAT(refusal(1, 2, "half_space", 0.1), HasSubstr("or take the thickness out"));
+  EXPECT_THAT(refusal(1, 0, "half_space", 0.2),
+              HasSubstr("row 1 has depth 0.2 mm, and the law 'half_space' holds to 0.1 mm"));
+  EXPECT_THAT(refusal(20, 1, "bonded", 0.05), HasSubstr("20 times the thickness of the layer, and the law holds from"));
+  EXPECT_THAT(message_of<InputError>([] {
+                (void)make_rig("indentation", {{"radius", 1.}}, {}, {"force"});
+              }),
+              HasSubstr("no column is mapped to 'depth'"));
+  EXPECT_THAT(failure(*make_indentation(1, 0, "half_space", {0.05}), *make_model("gho"), {20, 0.1, 30, 1, 40}),
+              HasSubstr("the material has directions"));
+}
+
+}  // namespace
+}  // namespace tunica::testing::indentation_test
