@@ -386,6 +386,8 @@ class Estimate(TypedDict):
     min: float
     #: The upper bound. Unit: `unit`.
     max: float
+    #: Of a parameter with a value of its own in a state: that value less the one of the models.
+    difference: NotRequired[StateDifference]
     #: Where the profile likelihood crosses its threshold; null on a side where it stays below as far as the bound. Only
     #: with --profiles. Unit: `unit`.
     profile_ci95: NotRequired[list[float | None]]
@@ -398,6 +400,19 @@ class Estimate(TypedDict):
     posterior_ci95: NotRequired[list[float] | None]
     #: What else the draws from the posterior say. Only with --posterior.
     posterior: NotRequired[EstimatePosterior]
+
+
+#: How a parameter differs in a state of the specimen.
+StateDifference = TypedDict("StateDifference", {
+    #: The entry of states.
+    "state": "str",
+    #: The parameter of the models that it differs from.
+    "from": "str",
+    #: Its value less that one, in the unit of the parameter. Unit: `unit`.
+    "value": "float",
+    #: From the data's noise; null where they do not fix both. Unit: `unit`.
+    "ci95": "list[float] | None",
+})
 
 
 class EstimatePosterior(TypedDict):
@@ -1262,6 +1277,9 @@ class MisfitBudget(TypedDict):
     not_looked_for: NotRequired[list[str]]
     #: The cause that leads. Absent where none does.
     lead: NotRequired[MisfitBudgetLead]
+    #: What differs in a test that was of another state of the specimen; extended.json has it. Absent where that does
+    #: not lead.
+    state: NotRequired[MisfitBudgetState]
     #: Each cause as the only one, the largest share first. Absent where the causes leave noise.
     alone: NotRequired[list[Contender]]
     #: That no listed cause is behind the misfit. Absent without alone.
@@ -1311,6 +1329,31 @@ class MisfitBudgetLead(TypedDict):
     target: Target | None
     #: What it is a property of.
     group: CauseGroup
+
+
+class MisfitBudgetState(TypedDict):
+    """What differs in a test that was of another state of the specimen; extended.json has it. Absent where that does
+    not lead."""
+    #: Of the entry of states in extended.json.
+    name: str
+    #: Whose state it is.
+    test: str
+    #: Of the misfit beyond noise that it takes.
+    share: float
+    #: The fewest parameters that take nearly as much as all of them.
+    changes: list[MisfitBudgetStateChanges]
+
+
+class MisfitBudgetStateChanges(TypedDict):
+    """A parameter with a value of its own in the state."""
+    #: Its name.
+    parameter: str
+    #: UDUNITS spelling; 1 where it has none.
+    unit: str
+    #: In the other tests. Unit: `unit`.
+    value: float
+    #: In this test. Unit: `unit`.
+    in_state: float
 
 
 class Contender(TypedDict):

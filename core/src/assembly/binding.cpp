@@ -146,6 +146,13 @@ Binding bind_parameters(const std::vector<std::vector<Slot>>& owners) {
     ParameterVector vector{std::vector<double>(slots.size()), {}};
     for (std::size_t position = 0; position < slots.size(); ++position) {
       const Slot& slot = slots[position];
+      if (slot.same_as) {
+        const ParameterVector& other = binding.owners[slot.same_as->owner];
+        vector.values[position] = other.values[slot.same_as->position];
+        for (const Link& link : other.links)
+          if (link.position == slot.same_as->position) vector.links.push_back({position, link.index});
+        continue;
+      }
       if (held(slot)) {
         vector.values[position] = held_value(slot);
         binding.fixed.push_back({slot.declaration.name,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ struct Slot {
   Parameter declaration;                                   ///< its name as the outside sees it
   const experiment::ParameterSetting* setting = nullptr;   ///< what the file says; null = nothing
   double null = std::numeric_limits<double>::quiet_NaN();  ///< a native imperfection is held here unless mentioned
+  /// The slot of an owner before this one whose value it has: {owner, position}.
+  struct Same {
+    std::size_t owner, position;
+  };
+  std::optional<Same> same_as = {};
 };
 
 struct Binding {

@@ -52,7 +52,7 @@ void refuse_one_name_for_two(const std::vector<std::string>& models, const std::
 
 /// Notes the strips and the largest stretch that a test prescribes.
 void add_stretches(const Test& test, const std::vector<Observable>& observables, const std::string& name,
-                   std::vector<Strip>& strips, double& largest) {
+                   std::size_t model, std::vector<Strip>& strips, double& largest) {
   for (const TestRows::Column& column : test.rows().abscissae) {
     const auto observable = std::find_if(observables.begin(), observables.end(), [&](const Observable& candidate) {
       return candidate.name == column.observable;
@@ -61,7 +61,7 @@ void add_stretches(const Test& test, const std::vector<Observable>& observables,
     for (const double stretch : column.values) largest = std::max(largest, stretch);
     if (test.describe().free_strip_axis && column.observable == "stretch")
       strips.push_back({name,
-                        0,
+                        model,
                         std::min<std::size_t>(*test.describe().free_strip_axis, 1),
                         {column.values.begin(), column.values.end()}});
   }
@@ -179,12 +179,30 @@ void Builder::compose() {
     parts_.models.push_back({name, std::move(model.plugin), std::move(model.model), {}});
     slots_.push_back(std::move(model.slots));
   }
+  for (const std::string& name : experiment_.states_of(run_)) add_state(experiment_.state(name), names.size());
   for (const std::string& name : run_.tests) {
     const experiment::TestEntry& entry = experiment_.test(name);
     composed_.push_back(
         compose_test(entry, catalogue_, entry.layers.empty() ? &experiment_.model(names.front()) : nullptr));
     slots_.push_back(composed_.back().slots);
   }
+}
+
+/// Its models have the parameters of the first ones, but for those that differ.
+void Builder::add_state(const experiment::StateEntry& state, std::size_t models) {
+  std::vector<Differing>& differing = parts_.layout.differing;
+  const std::size_t before = differing.size();
+  for (std::size_t m = 0; m < models; ++m) {
+    std::vector<Slot> slots = slots_in(state, slots_[m], m, settings_, differing);
+    slots_.push_back(std::move(slots));
+    RunModel other = parts_.models[m];
+    other.name = fmt::format("{} ({})", other.name, state.name);
+    other.state = state.name;
+    parts_.models.push_back(std::move(other));
+  }
+  if (differing.size() == before)
+    states_without_effect_.push_back(fmt::format(
+        "the state '{}' changes nothing in this run: its model has none of the parameters that differ", state.name));
 }
 
 void Builder::bind() {
@@ -195,7 +213,10 @@ void Builder::bind() {
   layout.parameters = std::move(binding.free);
   layout.fixed_parameters = std::move(binding.fixed);
   layout.warnings = out_of_range(layout.parameters, layout.fixed_parameters);
-  for (const RunModel& model : parts_.models) add_combinations(model, parts_.models.size() > 1, layout.combinations);
+  std::move(states_without_effect_.begin(), states_without_effect_.end(), std::back_inserter(layout.warnings));
+  const std::size_t models = experiment_.models_of(run_).size();
+  for (const RunModel& model : parts_.models)
+    if (model.state.empty()) add_combinations(model, models > 1, layout.combinations);
 }
 
 void Builder::add_test(std::size_t number) {
@@ -217,7 +238,10 @@ void Builder::add_test(std::size_t number) {
   const auto& observables = catalogue_.tests().at(entry.type).factory.observables;
   look_at_sizes(entry, layout.warnings);
   refuse_converted_force(entry, observables, *test.model);
-  add_stretches(*test.test, observables, entry.name, parts_.strips, parts_.largest_stretch);
+  const auto in_its_state = std::find_if(parts_.models.begin(), parts_.models.end(),
+                                         [&entry](const RunModel& model) { return model.state == entry.state; });
+  add_stretches(*test.test, observables, entry.name, static_cast<std::size_t>(in_its_state - parts_.models.begin()),
+                parts_.strips, parts_.largest_stretch);
   const std::vector<std::string> names = experiment_.models_of(run_);
   if (entry.layers.empty() && !names.empty() && experiment_.model(names.front()).options.has(experiment::material_key))
     if (std::string question =

@@ -11,6 +11,7 @@
 #include "assembly/models.hpp"
 #include "assembly/objective.hpp"
 #include "assembly/run_test.hpp"
+#include "assembly/states.hpp"
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
 
@@ -40,6 +41,7 @@ class Builder {
 
  private:
   void compose();
+  void add_state(const experiment::StateEntry& state, std::size_t models);
   void bind();
   void add_test(std::size_t number);
   /// The fitted rows of the channels of a test as blocks of the objective.
@@ -51,10 +53,12 @@ class Builder {
   const experiment::RunEntry& run_;
   const plugins::Catalogue& catalogue_;
   Parts parts_;
-  std::vector<std::vector<Slot>> slots_;  ///< of the models, then of the tests
+  std::vector<std::vector<Slot>> slots_;               ///< of the models in every state, then of the tests
+  std::deque<experiment::ParameterSetting> settings_;  ///< of parameters that differ in a state
   std::vector<ComposedTest> composed_;
-  std::vector<ParameterVector> vectors_;  ///< as the slots
-  std::vector<std::string> unstated_;     ///< least squares: what the weights of channels rest on
+  std::vector<ParameterVector> vectors_;            ///< as the slots
+  std::vector<std::string> states_without_effect_;  ///< sentences
+  std::vector<std::string> unstated_;               ///< least squares: what the weights of channels rest on
 };
 
 }  // namespace tunica::assembly

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "assembly/channel_noise.hpp"
+#include "assembly/differing.hpp"
 #include "data/dataset.hpp"
 #include "experiment/experiment.hpp"
 #include "tunica/model.hpp"
@@ -99,6 +100,7 @@ struct Layout {
   std::vector<ResidualBlock> blocks;  ///< one a fitted channel, one more for priors
   /// Known invariances of the models, arguments as indices into `parameters`; value() takes the free values.
   std::vector<Combination> combinations;
+  std::vector<Differing> differing = {};  ///< parameters with values of their own in a state of the specimen
   std::vector<std::string> warnings;
   std::vector<data::Finding> findings = {};  ///< about the records of the tests, and about the file
   std::vector<std::string> notes;            ///< what should be known, and worries nobody

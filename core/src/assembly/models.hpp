@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -15,8 +16,9 @@ namespace tunica::assembly {
 /// One model of the run, with its mechanisms.
 struct RunModel {
   std::string name, plugin;
-  std::unique_ptr<Model> model;
+  std::shared_ptr<Model> model;  ///< one for all states of the specimen
   ParameterVector parameters;
+  std::string state = {};  ///< of the specimen that the parameters are of; empty = that of the models
 };
 
 /// A strip with free lateral faces among the tests of a run, and the stretches it was measured at.
@@ -34,7 +36,14 @@ class Models {
   Models(std::vector<RunModel> models, std::vector<Strip> strips, double largest_stretch)
       : models_(std::move(models)), strips_(std::move(strips)), largest_stretch_(largest_stretch) {}
 
+  /// In every state of the specimen, those of the state of the models first.
   [[nodiscard]] std::size_t count() const { return models_.size(); }
+  /// Without those of other states.
+  [[nodiscard]] std::size_t in_one_state() const {
+    return static_cast<std::size_t>(
+        std::count_if(models_.begin(), models_.end(), [](const RunModel& one) { return one.state.empty(); }));
+  }
+  /// In a state other than that of the models, "gho (relaxed)".
   [[nodiscard]] const std::string& name(std::size_t model) const { return models_[model].name; }
   [[nodiscard]] const Model& model(std::size_t model) const { return *models_[model].model; }
   /// Where the free parameters go in the model's vector.

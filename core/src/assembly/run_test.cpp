@@ -66,13 +66,15 @@ void assign_models(RunTest& test, const experiment::TestEntry& entry, const std:
     for (const Link& link : model.parameters.links) test.materials.links.push_back({first + link.position, link.index});
     test.differenced = test.differenced || !has_derivatives(test, model.model->describe());
   };
-  if (entry.layers.empty()) add(models.front());
+  const auto first = std::find_if(models.begin(), models.end(),
+                                  [&entry](const RunModel& candidate) { return candidate.state == entry.state; });
+  if (entry.layers.empty()) add(*first);
   for (const experiment::LayerEntry& layer : entry.layers) {
     const auto named = std::find_if(models.begin(), models.end(),
                                     [&layer](const RunModel& candidate) { return candidate.name == layer.model; });
     test.layers.push_back(named->model.get());
     test.layer_names.push_back(named->name);
-    add(*named);
+    add(*(first + (named - models.begin())));
   }
   test.model = test.layers.empty() ? models.front().model.get() : test.layers.front();
 }

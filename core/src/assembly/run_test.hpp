@@ -38,7 +38,8 @@ struct RunTest {
   [[nodiscard]] std::size_t slots() const { return materials.values.size() + own.values.size(); }
 };
 
-/// Gives a test its models: that of the run, or one a layer; layers that share one have a copy of its parameters each.
+/// Gives a test its models, in its state: that of the run, or one a layer; layers that share one have a copy of its
+/// parameters each. Models of one state stand in the same order in every state.
 void assign_models(RunTest& test, const experiment::TestEntry& entry, const std::vector<RunModel>& models);
 
 /// Fills the chain rule, once models and own parameters are in place.

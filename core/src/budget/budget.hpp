@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "budget/proposed_state.hpp"
 #include "budget/steps.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/evidence/tolerance.hpp"
@@ -60,6 +61,8 @@ struct Budget {
   };
   std::vector<Untried> not_looked_for;    ///< mechanisms, or terms, that could be the cause
   std::shared_ptr<const Mixture> fitted;  ///< all steps; null where there are none
+  /// What differs in the test that another state leads in; with_verdict_of() sets it.
+  std::shared_ptr<const ProposedState> state;
 
   [[nodiscard]] Size rest() const { return steps.empty() ? base : steps.back().rest; }
 };

@@ -15,6 +15,7 @@
 #include "diagnosis/naming/causes.hpp"
 #include "diagnosis/naming/unseen_rivals.hpp"
 #include "diagnosis/prospects/gain.hpp"
+#include "text/units.hpp"
 
 namespace tunica::budget {
 namespace {
@@ -195,6 +196,37 @@ bool only_mechanisms(const Mixture& mixture) {
                      [](const Member& member) { return member.mechanism.has_value(); });
 }
 
+void propose_state(Budget& budget, const diagnosis::Analysis& analysis, const plugins::Catalogue& catalogue) {
+  const Contender& lead = *budget.lead;
+  if (lead.id != "another_state") return;
+  const MisfitSize size(analysis.evidence);
+  auto state = proposed_state(analysis.evidence, size, lead.place.tests.front(), lead.share, catalogue);
+  if (!state) return;
+  // The state is what takes the misfit, in place of mechanisms that would take a part of it.
+  Step step;
+  step.id = lead.id;
+  step.place = lead.place;
+  step.group = lead.group;
+  step.share = step.shapley = state->share;
+  step.rest = size.of(state->fit);
+  budget.steps = {std::move(step)};
+  budget.fitted.reset();
+  budget.rest_channels = size.channels(state->fit);
+  budget.adequate = budget.rest().upper <= budget.tolerance.share;
+  budget.state = std::make_shared<const ProposedState>(std::move(*state));
+}
+
+/// "; as a state of its own, mu is 31.2 kPa there instead of 20.1 kPa, which takes 97 %"
+std::string state_words(const Budget& budget) {
+  if (!budget.state) return {};
+  std::vector<std::string> changes;
+  for (const ProposedState::Change& one : budget.state->changes)
+    changes.push_back(fmt::format("{} is {:.3g}{} there instead of {:.3g}", one.parameter, one.in_state,
+                                  text::unit_suffix(one.unit), one.value));
+  return fmt::format("; as a state of its own, {}, which takes {}", fmt::join(changes, ", "),
+                     percent(budget.state->share));
+}
+
 diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experiment,
                             const plugins::Catalogue& catalogue, diagnosis::Diagnosis d) {
   if (budget.contenders.empty()) return d;
@@ -236,8 +268,10 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
   };
   if (decision.verdict == Verdict::leading) {
     budget.lead = *decision.first.front();
+    propose_state(budget, d.analysis, catalogue);
     explanation.reasons = {
-        {ReasonKind::leads, leading_words(budget, decision, explanation.admissibility.stable.value_or(true))}};
+        {ReasonKind::leads,
+         leading_words(budget, decision, explanation.admissibility.stable.value_or(true)) + state_words(budget)}};
     if (budget.fitted && only_mechanisms(*budget.fitted)) {
       claim(inquiry, d.analysis, budget, *budget.fitted, explanation);
       d.prospects.gain = diagnosis::gain_of(inquiry, d.analysis, explanation.claim);

@@ -86,6 +86,34 @@ void add_covariance(const assembly::Assembly& assembly, const std::vector<double
   }
 }
 
+/// In a state: var(p' − p) = var p' + var p − 2 cov(p', p), with the quantile of the interval of p'.
+void add_state_differences(const assembly::Assembly& assembly, const std::vector<double>& best,
+                           const uncertainty::Identifiability* found, RunSummary& summary) {
+  const auto& layout = assembly.layout();
+  const auto place_of = [](const auto& all, const std::string& name) {
+    return static_cast<std::size_t>(
+        std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; }) - all.begin());
+  };
+  const auto& fixed = summary.covariance.parameters;
+  for (const assembly::Differing& one : layout.differing) {
+    const std::size_t own = place_of(layout.parameters, one.own), from = place_of(layout.parameters, one.name),
+                      held = place_of(layout.fixed_parameters, one.name);
+    if (own == layout.parameters.size()) continue;  // fixed in the state
+    const bool is_free = from < layout.parameters.size();
+    if (!is_free && held == layout.fixed_parameters.size()) continue;  // shared under another name
+    Estimate::StateDifference difference{one.state, one.name, 0, {}};
+    difference.value = best[own] - (is_free ? best[from] : layout.fixed_parameters[held].value);
+    const std::size_t i = place_of(fixed, one.own), j = place_of(fixed, one.name), n = fixed.size();
+    if (found != nullptr && i < n && (j < n || !is_free) && std::isfinite(found->parameters[own].ci95)) {
+      const auto& cov = summary.covariance.values;
+      const double variance = cov[i * n + i] + (is_free ? cov[j * n + j] - 2 * cov[i * n + j] : 0);
+      const double half = found->parameters[own].ci95 * std::sqrt(std::max(variance, 0.0) / cov[i * n + i]);
+      difference.ci95 = {difference.value - half, difference.value + half};
+    }
+    summary.parameters[own].difference = std::move(difference);
+  }
+}
+
 void warn_of_coarse_mesh(const RunSummary& summary, std::vector<execution::Warning>& warnings) {
   std::vector<std::string> names;
   double worst = 0;
@@ -126,6 +154,7 @@ void add_mesh_bias(const assembly::Assembly& assembly, const std::vector<double>
 void add_identifiability(const assembly::Assembly& assembly, const execution::RealisationResult& best,
                          const plugins::LimitedWork& work, RunSummary& summary,
                          std::vector<execution::Warning>& warnings) {
+  add_state_differences(assembly, best.best.parameters, nullptr, summary);
   if (summary.status.kind() == Status::Kind::infeasible) return;  // nobody asks this of a point that is not allowed
   uncertainty::Identifiability found;
   const Status status = work.is_over() ? Status::failed("max_time was over")
@@ -154,6 +183,7 @@ void add_identifiability(const assembly::Assembly& assembly, const execution::Re
     if (interval.identified && std::isfinite(interval.ci95)) estimate.ci95 = {interval.lower, interval.upper};
   }
   add_covariance(assembly, best.best.parameters, found, summary.covariance);
+  add_state_differences(assembly, best.best.parameters, &found, summary);
   add_mesh_bias(assembly, best.best.parameters, found, work, summary, warnings);
   summary.curve_ci95 = std::move(found.curve_ci95);
   summary.identifiability = found.sentences();

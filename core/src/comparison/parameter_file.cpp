@@ -87,7 +87,7 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
   }
   for (const auto& parameter : fixed) known.push_back(parameter.name);
   // A run of the model alone has names without it, where this one, with layers of other models, says whose they are.
-  const bool several = assembly.models().count() > 1;
+  const bool several = assembly.models().in_one_state() > 1;
   for (const auto& [written, value] : values.items()) {
     const std::string full = fmt::format("{}.{}", model, written);
     const bool prefixed = several && std::find(known.begin(), known.end(), written) == known.end() &&

@@ -257,6 +257,10 @@ text::StyledText value_text(const Estimate& estimate) {
     text += symmetric ? fmt::format(" ± {:.2g}{}", (above + below) / 2, unit)
                       : fmt::format("{} ({:.4g} … {:.4g})", unit, estimate.ci95->first, estimate.ci95->second);
   }
+  if (const auto& difference = estimate.difference)
+    text += fmt::format(
+        "  {} {:+.3g}{}", difference->from, difference->value,
+        difference->ci95 ? fmt::format(" ± {:.2g}", (difference->ci95->second - difference->ci95->first) / 2) : "");
   if (estimate.mesh_bias) {
     const std::string bias = fmt::format("mesh {:+.2g}{}", *estimate.mesh_bias, unit);
     text += "  ";

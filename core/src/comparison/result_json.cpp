@@ -198,6 +198,11 @@ json best(const RunSummary& run) {
     if (parameter.profile)
       entry["profile_ci95"] = {or_null(parameter.profile->lower), or_null(parameter.profile->upper)};
     if (parameter.mesh_bias) entry["mesh_bias"] = *parameter.mesh_bias;
+    if (const auto& difference = parameter.difference)
+      entry["difference"] = {{"state", difference->state},
+                             {"from", difference->from},
+                             {"value", difference->value},
+                             {"ci95", interval(difference->ci95)}};
     if (run.bootstrap) entry["bootstrap_ci95"] = interval(parameter.bootstrap);
     if (parameter.posterior) {
       entry["posterior_ci95"] = {parameter.posterior->lower, parameter.posterior->upper};

@@ -61,6 +61,13 @@ struct Estimate {
     return mesh_bias && ci95 && std::abs(*mesh_bias) > (ci95->second - ci95->first) / 6;
   }
   std::optional<PosteriorMarginal> posterior;
+  /// Of a parameter with a value of its own in a state: that value less the one in the state of the models.
+  struct StateDifference {
+    std::string state, from;  ///< from: the parameter of the models
+    double value = 0;
+    std::optional<Interval> ci95;  ///< where the data fix both
+  };
+  std::optional<StateDifference> difference;
   bool straight = true;     ///< ci95 can be believed, see uncertainty/straightness.hpp
   bool identified = false;  ///< the data fix it, apart from a bound
   bool held = false;        ///< a constraint fixes it

@@ -27,6 +27,7 @@ const Entry& named(const std::vector<Entry>& entries, std::string_view name) {
 
 const ModelEntry& Experiment::model(std::string_view wanted) const { return named(models, wanted); }
 const TestEntry& Experiment::test(std::string_view wanted) const { return named(tests, wanted); }
+const StateEntry& Experiment::state(std::string_view wanted) const { return named(states, wanted); }
 const OptimizerEntry& Experiment::optimizer(std::string_view wanted) const { return named(optimizers, wanted); }
 
 std::vector<std::string> Experiment::models_of(const RunEntry& run) const {
@@ -35,6 +36,15 @@ std::vector<std::string> Experiment::models_of(const RunEntry& run) const {
   for (const std::string& used : run.tests)
     for (const LayerEntry& layer : test(used).layers)
       if (std::find(names.begin(), names.end(), layer.model) == names.end()) names.push_back(layer.model);
+  return names;
+}
+
+std::vector<std::string> Experiment::states_of(const RunEntry& run) const {
+  std::vector<std::string> names;
+  for (const std::string& used : run.tests)
+    if (const std::string& state = test(used).state;
+        !state.empty() && std::find(names.begin(), names.end(), state) == names.end())
+      names.push_back(state);
   return names;
 }
 
@@ -93,9 +103,11 @@ Experiment parse_experiment(std::string text, const std::filesystem::path& file,
   if (!format.is_number() || format.number("") != 1)
     format.fail(fmt::format("found format {} where 1 is expected", format.dumped()),
                 "This version of tunica reads format 1 only.");
-  root.allow_only({"$schema", "format", "name", "seed", "models", "tests", "objective", "constraints", "optimizers",
-                   "stop", "initial", "paired_starts", "runs", "on_failure", "fewer_simulations", "keep_evaluations",
-                   "analysis", "diagnosis", "discovery"},
+  root.allow_only({"$schema",          "format",     "name",       "seed",
+                   "models",           "states",     "tests",      "objective",
+                   "constraints",      "optimizers", "stop",       "initial",
+                   "paired_starts",    "runs",       "on_failure", "fewer_simulations",
+                   "keep_evaluations", "analysis",   "diagnosis",  "discovery"},
                   "the experiment file");
   Experiment experiment;
   experiment.file = file;
@@ -109,10 +121,11 @@ Experiment parse_experiment(std::string text, const std::filesystem::path& file,
     experiment.models.push_back(read_model(name, entry, catalogue, shared));
   if (experiment.models.empty())
     models.fail("no model is given", "Give at least one, for example \"gho\": {\"type\": \"gho\"}.");
+  if (const auto node = root.find("states")) experiment.states = read_states(*node, experiment.models, catalogue);
   const Node tests = root.require("tests", "the experiment file");
   for (const auto& [name, entry] : tests.members("an object with one entry per test"))
     experiment.tests.push_back(
-        read_test(name, entry, file.parent_path(), entry_names(experiment.models), catalogue, shared));
+        read_test(name, entry, file.parent_path(), entries_to_name(experiment), catalogue, shared));
   if (experiment.tests.empty()) tests.fail("no test is given", "Give at least one, with its data.");
   const bool without_runs = purpose == Purpose::prediction && !root.find("runs");
   experiment.optimizers = without_runs && !root.find("optimizers")
@@ -133,6 +146,7 @@ Experiment parse_experiment(std::string text, const std::filesystem::path& file,
   else
     read_runs(root.require("runs", "the experiment file"), defaults, catalogue, shared, experiment);
   check_shared(shared);
+  if (const auto node = root.find("states")) check_states(*node, experiment);
   if (const auto node = root.find("analysis")) read_analysis(*node, experiment);
   if (const auto node = root.find("diagnosis")) experiment.diagnosis = read_diagnosis(*node, experiment, catalogue);
   if (const auto node = root.find("discovery")) experiment.discovery = read_discovery(*node, experiment);

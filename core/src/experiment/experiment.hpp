@@ -66,12 +66,21 @@ struct LayerEntry {
   double thickness;  ///< mm
 };
 
+/// A state of the specimen, of tone, calcium, temperature or treatment: in its tests these parameters of the model
+/// have values of their own, and all others are those of the other tests.
+struct StateEntry {
+  std::string name;
+  std::string doc;            ///< what was done to the specimen, for readers; may be empty
+  ParameterSettings differs;  ///< by the names that results have; what is silent is as in the model
+};
+
 struct TestEntry {
   std::string name, type;
   Options options;
   std::vector<LayerEntry> layers;  ///< from inside; empty = the run's model
   ParameterSettings parameters;
   std::vector<MechanismEntry> mechanisms;
+  std::string state = {};  ///< of the specimen, an entry of "states"; empty = that of the models
   data::DataRequest data;
   std::vector<double> weights;  ///< one per mapped channel, in the order of data.columns' channels
   HoldOut hold_out;
@@ -215,6 +224,7 @@ struct Experiment {
   std::uint64_t seed = 1;
   bool paired_starts = false;  ///< runs of the same parameters and bounds begin their searches at the same points
   std::vector<ModelEntry> models;
+  std::vector<StateEntry> states = {};
   std::vector<TestEntry> tests;
   std::vector<OptimizerEntry> optimizers;
   std::vector<RunEntry> runs;
@@ -229,6 +239,9 @@ struct Experiment {
 
   [[nodiscard]] const ModelEntry& model(std::string_view name) const;
   [[nodiscard]] const TestEntry& test(std::string_view name) const;
+  [[nodiscard]] const StateEntry& state(std::string_view name) const;
+  /// States of the run's tests, each once.
+  [[nodiscard]] std::vector<std::string> states_of(const RunEntry& run) const;
   [[nodiscard]] const OptimizerEntry& optimizer(std::string_view name) const;
   /// The run's own, then those that layers of its tests name, each once.
   [[nodiscard]] std::vector<std::string> models_of(const RunEntry& run) const;

@@ -50,6 +50,8 @@ ParameterSettings read_parameters(const Node& entry, const std::vector<Parameter
 ParameterSettings read_mentioned_parameters(const Node& entry, const std::vector<Parameter>& declared,
                                             std::string_view owner, std::vector<SharedParameter>& shared);
 void check_shared(const std::vector<SharedParameter>& shared);
+/// One parameter as the file has it, nothing filled in. `name` is for messages.
+ParameterSetting read_setting(const Node& node, const std::string& name, std::string_view unit);
 
 // angles.cpp
 /// Angles of an entry that stand without a unit and look like radians.
@@ -70,10 +72,22 @@ std::vector<MechanismEntry> read_test_mechanisms(const Node& entry, const std::s
                                                  std::vector<SharedParameter>& shared,
                                                  std::vector<data::Finding>& findings);
 
+// reader_states.cpp
+std::vector<StateEntry> read_states(const Node& node, const std::vector<ModelEntry>& models,
+                                    const plugins::Catalogue& catalogue);
+/// That the names of states begin no other names, and that every state has a test.
+void check_states(const Node& node, const Experiment& experiment);
+
 // reader_tests.cpp
-/// `models`: the names that layers may have.
+/// What a test may name: models for its layers, and a state.
+struct NamedEntries {
+  std::vector<std::string> models, states;
+};
+inline NamedEntries entries_to_name(const Experiment& experiment) {
+  return {entry_names(experiment.models), entry_names(experiment.states)};
+}
 TestEntry read_test(const std::string& name, const Node& entry, const std::filesystem::path& folder,
-                    const std::vector<std::string>& models, const plugins::Catalogue& catalogue,
+                    const NamedEntries& named, const plugins::Catalogue& catalogue,
                     std::vector<SharedParameter>& shared);
 
 // reader_tables.cpp

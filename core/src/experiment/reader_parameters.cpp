@@ -14,6 +14,8 @@ namespace {
 
 const std::vector<std::string> keys_of_parameter = {"min", "max", "initial", "fixed", "scale", "share", "prior"};
 
+}  // namespace
+
 ParameterSetting read_setting(const Node& node, const std::string& name, std::string_view unit) {
   const std::string what = fmt::format("parameter '{}'", name);
   node.allow_only(keys_of_parameter, what);
@@ -50,6 +52,8 @@ ParameterSetting read_setting(const Node& node, const std::string& name, std::st
   }
   return setting;
 }
+
+namespace {
 
 std::string quantity(double value, std::string_view unit) {
   return unit.empty() || unit == "1" ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);

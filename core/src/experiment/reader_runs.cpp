@@ -76,7 +76,7 @@ std::vector<std::string> read_test_list(const Node& node, const std::filesystem:
         entry.fail(fmt::format("the test '{}' is already defined", name),
                    "Results carry the names of tests, so a test that differs needs another name; to use the same test, "
                    "list its name.");
-      experiment.tests.push_back(read_test(name, entry, folder, entry_names(experiment.models), catalogue, shared));
+      experiment.tests.push_back(read_test(name, entry, folder, entries_to_name(experiment), catalogue, shared));
       names.push_back(name);
     }
   } else {

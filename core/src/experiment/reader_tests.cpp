@@ -74,7 +74,7 @@ std::vector<LayerEntry> read_layers(const Node& entry, const std::string& type, 
 }  // namespace
 
 TestEntry read_test(const std::string& name, const Node& entry, const std::filesystem::path& folder,
-                    const std::vector<std::string>& models, const plugins::Catalogue& catalogue,
+                    const NamedEntries& named, const plugins::Catalogue& catalogue,
                     std::vector<SharedParameter>& shared) {
   entry.expect_object("a test, {\"type\": …},");
   entry.check_name(name, "test");
@@ -84,8 +84,11 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
   TestEntry test;
   test.name = name;
   test.type = type;
-  test.layers = read_layers(entry, type, models, catalogue);
+  test.layers = read_layers(entry, type, named.models, catalogue);
   std::vector<std::string> keys = {"type", "data", "weight", "hold_out", "parameters", "mechanisms"};
+  const bool has_state = factory.options.end() == std::find_if(factory.options.begin(), factory.options.end(),
+                                                               [](const Option& o) { return o.name == "state"; });
+  if (has_state) keys.emplace_back("state");
   if (factory.layered) keys.emplace_back("layers");
   test.options = read_options(entry, factory.options, keys, owner);
   test.folder = std::filesystem::absolute(folder.empty() ? "." : folder);
@@ -96,6 +99,12 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
   test.findings = bare_angles(entry, factory.options, factory.parameters, owner);
   test.parameters = read_mentioned_parameters(entry, factory.parameters, owner, shared);
   test.mechanisms = read_test_mechanisms(entry, type, owner, catalogue, shared, test.findings);
+  if (const auto node = has_state ? entry.find("state") : std::nullopt) {
+    if (named.states.empty())
+      node->fail(fmt::format("{} names a state, and the experiment has no \"states\"", owner),
+                 "Add them, for example \"states\": {\"relaxed\": {\"parameters\": {\"mu\": {}}}}.");
+    test.state = node->one_of(named.states, "state");
+  }
   test.data = read_data(entry.require("data", owner), factory.observables, owner, folder);
   for (data::Finding& finding : odd_sizes(entry, test, factory.options, owner))
     test.findings.push_back(std::move(finding));

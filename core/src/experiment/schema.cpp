@@ -289,6 +289,7 @@ std::string compose_schema(const plugins::Catalogue& catalogue) {
   define_data(definitions);
   define_rig_keys(definitions);
   define_search(definitions, catalogue);
+  definitions["state_name"] = text_schema("Name of the state that the specimen was in (default: that of the models).");
   definitions["test"] = by_type("test", names_of(catalogue.tests()), "A test and its data.");
   define_plugins(definitions, catalogue);
 
@@ -299,6 +300,18 @@ std::string compose_schema(const plugins::Catalogue& catalogue) {
   properties["seed"] = count_schema("Root of all random numbers (default 1).", 0);
   properties["models"] =
       named_entries("The models to calibrate, by name.", by_type("model", names_of(catalogue.models()), "A model."));
+  Json differing = {{"description",
+                     "Parameters that have a value of their own in this state, named as in results; "
+                     "what is silent is as in the model."},
+                    {"type", "object"},
+                    {"minProperties", 1},
+                    {"maxProperties", limits::entries},
+                    {"additionalProperties", reference("parameter")}};
+  properties["states"] = named_entries(
+      "States of the specimen, by name: tone, calcium, temperature, treatment.",
+      object_schema("What differs in this state.",
+                    {{"doc", text_schema("What was done to the specimen.")}, {"parameters", std::move(differing)}},
+                    {"parameters"}));
   properties["tests"] = named_entries("The tests to fit, by name.", reference("test"));
   properties["objective"] = reference("objective");
   properties["constraints"] = reference("constraints");

@@ -197,6 +197,7 @@ void define_plugins(Json& definitions, const plugins::Catalogue& catalogue) {
                                                   {"minItems", 1},
                                                   {"maxItems", limits::entries}}})}};
     for (const char* name : {"weight", "hold_out"}) properties[name] = reference(name);
+    if (!properties.contains("state")) properties["state"] = reference("state_name");
     properties["parameters"] = parameters_schema(factory.parameters);
     properties["mechanisms"] = mechanism_list(applicable);
     definitions["test_" + type] =

@@ -199,6 +199,7 @@ class Writer {
     add_options(json, entry.options, catalogue_.tests().find(entry.type)->second.factory.options);
     for (const LayerEntry& layer : entry.layers)
       json["layers"].push_back({{"model", layer.model}, {"thickness", layer.thickness}});
+    if (!entry.state.empty()) json["state"] = entry.state;
     json["data"] = data(entry);
     json["weight"] = entry.weights;
     if (entry.hold_out.rows)
@@ -207,6 +208,13 @@ class Writer {
       json["hold_out"] = entry.hold_out.all;
     json["parameters"] = to_json(entry.parameters);
     json["mechanisms"] = mechanisms(entry.mechanisms);
+    return json;
+  }
+
+  [[nodiscard]] static Json state(const StateEntry& entry) {
+    Json json = Json::object();
+    if (!entry.doc.empty()) json["doc"] = entry.doc;
+    json["parameters"] = to_json(entry.differs);
     return json;
   }
 
@@ -303,6 +311,7 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
   json["name"] = experiment.name;
   json["seed"] = experiment.seed;
   for (const ModelEntry& entry : experiment.models) json["models"][entry.name] = writer.model(entry);
+  for (const StateEntry& entry : experiment.states) json["states"][entry.name] = Writer::state(entry);
   for (const TestEntry& entry : experiment.tests) json["tests"][entry.name] = writer.test(entry);
   for (const OptimizerEntry& entry : experiment.optimizers) json["optimizers"][entry.name] = writer.optimizer(entry);
   Json runs = Json::array();

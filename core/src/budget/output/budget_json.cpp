@@ -58,6 +58,18 @@ json budget_json(const Budget& budget) {
                       {"acts_like", budget.lead->sort},
                       {"target", diagnosis::place_json(budget.lead->place)},
                       {"group", diagnosis::code_of(budget.lead->group)}};
+  if (budget.state) {
+    json changes = json::array();
+    for (const ProposedState::Change& one : budget.state->changes)
+      changes.push_back({{"parameter", one.parameter},
+                         {"unit", one.unit},
+                         {"value", one.value},
+                         {"in_state", one.in_state}});
+    result["state"] = {{"name", budget.state->name},
+                       {"test", budget.state->test},
+                       {"share", budget.state->share},
+                       {"changes", std::move(changes)}};
+  }
   result["alone"] = std::move(contenders);
   result["unlisted_probability"] = budget.unlisted_probability;
   result["rough"] = budget.rough;
@@ -66,6 +78,11 @@ json budget_json(const Budget& budget) {
 
 std::string extended_experiment(const Budget& budget, const diagnosis::Diagnosis& d,
                                 const plugins::Catalogue& catalogue) {
+  if (budget.state)
+    return experiment::write_input(
+        diagnosis::fitted_experiment(budget.state->experiment, d.analysis.evidence.run, *budget.state->assembly,
+                                     budget.state->fit.free, d.request.optimizer, catalogue),
+        catalogue);
   if (!budget.fitted) return {};
   experiment::Experiment experiment = budget.fitted->extension->experiment();
   return experiment::write_input(

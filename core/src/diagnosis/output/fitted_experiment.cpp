@@ -29,6 +29,10 @@ experiment::ParameterSetting* setting_of(Experiment& experiment, const std::vect
     if (auto* found = in_mechanisms(test.mechanisms, rest)) return found;
     if (rest.find('.') == std::string::npos) return &test.parameters[rest];
   }
+  for (auto& state : experiment.states)
+    if (name.starts_with(state.name + "."))
+      if (const auto found = state.differs.find(name.substr(state.name.size() + 1)); found != state.differs.end())
+        return &found->second;
   for (auto& model : experiment.models) {
     if (std::find(models.begin(), models.end(), model.name) == models.end()) continue;
     std::string rest = name;

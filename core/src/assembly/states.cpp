@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "assembly/states.hpp"
+
+#include <algorithm>
+
+namespace tunica::assembly {
+namespace {
+
+using experiment::ParameterSetting;
+
+/// What the file says of a parameter in the state, and where it is silent, of the parameter in the model.
+ParameterSetting together(const ParameterSetting& in_state, const Slot& slot) {
+  ParameterSetting all = in_state;
+  if (all.fixed) return all;
+  const Parameter& declared = slot.declaration;
+  const ParameterSetting none, &of_model = slot.setting ? *slot.setting : none;
+  all.own_initial = in_state.initial.has_value();
+  all.min = in_state.min.value_or(of_model.min.value_or(declared.min));
+  all.max = in_state.max.value_or(of_model.max.value_or(declared.max));
+  if (!all.scale) all.scale = of_model.scale.value_or(declared.scale);
+  if (!all.initial) all.initial = of_model.initial.value_or(of_model.fixed.value_or(declared.initial));
+  // A start of the model that the state's bounds exclude is nobody's choice.
+  if (!all.own_initial && *all.min < *all.max) all.initial = std::clamp(*all.initial, *all.min, *all.max);
+  return all;
+}
+
+}  // namespace
+
+std::vector<Slot> slots_in(const experiment::StateEntry& state, const std::vector<Slot>& bare, std::size_t owner,
+                           std::deque<ParameterSetting>& settings, std::vector<Differing>& differing) {
+  std::vector<Slot> slots = bare;
+  for (std::size_t position = 0; position < slots.size(); ++position) {
+    Slot& slot = slots[position];
+    const auto found = state.differs.find(slot.declaration.name);
+    if (found == state.differs.end()) {
+      slot.same_as = {owner, position};
+      continue;
+    }
+    slot.setting = &settings.emplace_back(together(found->second, slot));
+    differing.push_back({state.name, slot.declaration.name, state.name + "." + slot.declaration.name});
+    slot.declaration.name = differing.back().own;
+  }
+  return slots;
+}
+
+}  // namespace tunica::assembly
