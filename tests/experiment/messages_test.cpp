@@ -12,7 +12,7 @@ TEST_F(Messages, NameTheNearestKeyOfAnUnknownOne) {
       refusal(R"("seed": 7)", R"("sead": 7)"),
       "experiment.json: unknown key 'sead' in the experiment file (/sead, line 3, column 38). Did you mean "
       "'seed'? Known: $schema, format, "
-      "name, seed, models, tests, objective, constraints, optimizers, stop, initial, paired_starts, runs, on_failure, "
+      "name, seed, models, states, tests, objective, constraints, optimizers, stop, initial, paired_starts, runs, on_failure, "
       "fewer_simulations, keep_evaluations, analysis, diagnosis, discovery.");
   expect_within(refusal(R"("rows": )", R"("row": )"),
                 "unknown key 'row' in the data of test 'circumferential_strip' (/tests/circumferential_strip/data/row, "

@@ -172,7 +172,7 @@ TEST(Bulge, RefusesWhatIsNoMembrane) {
   };
   EXPECT_THAT(refusal(0, 1, 1), HasSubstr("\"radius\" is 0 mm and \"thickness\" 1 mm, and both are above 0"));
   EXPECT_THAT(refusal(10, 3, 1), HasSubstr("a membrane is thinner than a fifth of its radius"));
-  EXPECT_THAT(refusal(10, 1, 0.001), HasSubstr("row 1 has height 0.001 mm; expected 0, or at least a thousandth"));
+  EXPECT_THAT(refusal(10, 1, 0.001), HasSubstr("row 1 has height 0.001 mm; expected 0, or from a thousandth"));
   EXPECT_THAT(refusal(10, 1, -2), HasSubstr("row 1 has height -2 mm"));
   EXPECT_THAT(message_of<InputError>([] {
                 (void)make_rig("bulge", {{"radius", 10.}, {"thickness", 1.}}, {}, {"pressure"});

@@ -19,6 +19,8 @@ enum class Channel { pressure, apex_stretch, apex_curvature };
 
 /// Below this height over the radius the membrane counts as flat: strains are below 1e-6.
 constexpr double least_height = 1e-3;
+/// Above it a wrong unit is likelier than a balloon.
+constexpr double largest_height = 20;
 
 std::vector<Parameter> own_parameters() {
   return {{"prestretch", "1", 1, 1, 2, Scale::linear,
@@ -135,11 +137,14 @@ class Bulge final : public Test {
   }
 
   [[nodiscard]] bool can_reach(double height) const {
-    return std::isfinite(height) && (height == 0 || height >= least_height * radius_);
+    return std::isfinite(height) &&
+           (height == 0 || (height >= least_height * radius_ && height <= largest_height * radius_));
   }
   [[nodiscard]] std::string admitted() const {
-    return fmt::format("0, or at least a thousandth of the radius, {:g} mm; leave rows out where the membrane is flat",
-                       least_height * radius_);
+    return fmt::format(
+        "0, or from a thousandth of the radius, {:g} mm, to 20 times the radius; leave rows out where the membrane is "
+        "flat, and see to the unit",
+        least_height * radius_);
   }
   static std::string row_name(std::size_t row, double height) {
     return fmt::format("row {} has height {:g} mm", row + 1, height);
