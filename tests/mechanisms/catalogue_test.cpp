@@ -118,7 +118,7 @@ TEST_P(EveryMechanism, IsLookedForAtSettingsThatItHas) {
 TEST_P(EveryMechanism, IsSharedByTestsWhereItIsOfTubesAlone) {
   const auto& tests = mechanism.applies_to;
   const bool tubes = !tests.empty() && std::all_of(tests.begin(), tests.end(), [](const std::string& type) {
-    return type.ends_with("pressurisation");
+    return type.ends_with("pressurisation") || type == "torsion";
   });
   EXPECT_EQ(mechanism.shared, tubes || mechanism.id == "clamped_ends");  // strips go into the same clamps
   for (const std::string& type : tests) EXPECT_TRUE(testing::catalogue().tests().contains(type)) << type;

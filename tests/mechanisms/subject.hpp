@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "conformance/test_properties.hpp"
+#include "rigs/rigs.hpp"
 #include "shelf.hpp"
 #include "support/fe_tube.hpp"
 #include "support/strip.hpp"
@@ -52,6 +53,14 @@ inline std::unique_ptr<Test> make_test(const std::string& type, const std::strin
     exact.set("gauss_points", std::int64_t{30});  // as many wherever the parameters are
     return make_tube(pressures, {.channels = channels, .options = exact});
   }
+  if (type == "torsion")
+    return make_rig(type,
+                    {{"inner_radius", 3.71},
+                     {"thickness", 2.06},
+                     {"axial_stretch", 1.2},
+                     {"pressure", 8.0},
+                     {"gauss_points", std::int64_t{30}}},
+                    {{"twist", {0.5, 1, 2, 3}}}, {"torque", "outer_diameter", "axial_force"});
   exact.set("tolerance", 1e-10);
   return make_fe_tube(pressures, {.elements = "[2, 3]", .channels = channels, .options = exact});
 }

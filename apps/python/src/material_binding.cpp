@@ -36,7 +36,8 @@ std::unique_ptr<Material> material_of(const Library& library, std::string text) 
 py::list parameters_of_material(const Material& material) {
   py::list all;
   for (const auto& slot : material.composed.slots) {
-    const auto& [declared, setting, null] = slot;
+    const Parameter& declared = slot.declaration;
+    const experiment::ParameterSetting* const setting = slot.setting;
     const auto said = [](const std::optional<double>& value, double otherwise) { return value.value_or(otherwise); };
     const bool has = setting != nullptr;
     const double initial = has ? said(setting->fixed, said(setting->initial, declared.initial)) : declared.initial;

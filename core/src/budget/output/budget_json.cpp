@@ -61,10 +61,8 @@ json budget_json(const Budget& budget) {
   if (budget.state) {
     json changes = json::array();
     for (const ProposedState::Change& one : budget.state->changes)
-      changes.push_back({{"parameter", one.parameter},
-                         {"unit", one.unit},
-                         {"value", one.value},
-                         {"in_state", one.in_state}});
+      changes.push_back(
+          {{"parameter", one.parameter}, {"unit", one.unit}, {"value", one.value}, {"in_state", one.in_state}});
     result["state"] = {{"name", budget.state->name},
                        {"test", budget.state->test},
                        {"share", budget.state->share},
