@@ -15,7 +15,7 @@ TEST(FirstTerm, StandsInThePlaceOfTheModelAndOfAllThatBelongsToIt) {
   experiment::Experiment given;
   given.models = {wall, wall};
   given.models[1].name = "other";
-  const experiment::Experiment found = with_first_term(given, "wall");
+  const experiment::Experiment found = with_first_terms(given, "wall", false);
   const experiment::ModelEntry& first = found.models.at(0);
   EXPECT_EQ(first.name, "wall");
   EXPECT_EQ(first.type, "composed");
@@ -25,6 +25,15 @@ TEST(FirstTerm, StandsInThePlaceOfTheModelAndOfAllThatBelongsToIt) {
   EXPECT_THAT(first.mechanisms, IsEmpty());
   EXPECT_EQ(found.models.at(1).type, "gho") << "another model stays";
   EXPECT_TRUE(found.models.at(1).options.has("angles"));
+}
+
+TEST(FirstTerm, HasOneOfTheVolumeBesideItWhereTheMaterialChangesIt) {
+  experiment::Experiment given;
+  given.models = {{"foam", "hyperfoam", {}, {}, {}}};
+  const experiment::Experiment found = with_first_terms(given, "foam", true);
+  EXPECT_EQ(found.models.front().options.text("terms"),
+            R"([{"name":"I1bar_linear","invariant":"I1bar","law":"linear"},)"
+            R"({"name":"J_quadratic","invariant":"J","law":"quadratic"}])");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 diagnosis::Evidence evidence_of(const Rubber& rubber, const ToFit& what) {
   experiment::Experiment read = rubber.read();
-  if (what.from_nothing) read = discovery::with_first_term(std::move(read), "rubber");
+  if (what.from_nothing) read = discovery::with_first_terms(std::move(read), "rubber", false);
   const diagnosis::Request request = diagnosis::request_of(read);
   const diagnosis::Progress silent;
   return diagnosis::evidence_of({read, request, testing::catalogue(), silent}, {});

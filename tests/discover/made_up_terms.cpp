@@ -181,7 +181,7 @@ MadeUpTerms::MadeUpTerms(const std::vector<double>& levels, std::map<std::string
   if (how.two_channels) noise.push_back({"z", {.absolute = 10}});
   run.objective = experiment::ObjectiveType::least_squares;
   experiment.runs = {run};
-  experiment = discovery::with_first_term(std::move(experiment), "m");
+  experiment = discovery::with_first_terms(std::move(experiment), "m", false);
   evidence.experiment = experiment;
   evidence.run = run;
   evidence.base = std::make_shared<const assembly::Assembly>(experiment, run, shelf);

@@ -91,7 +91,7 @@ Direction = Literal["circumferential", "axial"]
 #: Why the verdict of a discovery is what it is.
 DiscoveryReason = Literal["residuals_like_noise", "terms_found", "form_open", "invariant_open", "not_an_energy",
     "rig_explains", "rig_rival", "name_explains", "not_clean", "no_term", "gross_rows", "specimens_agree",
-    "specimens_left_over", "anisotropy_seen", "leads", "same_model"]
+    "specimens_left_over", "anisotropy_seen", "leads", "same_model", "searched_cheaper"]
 
 #: What a run came to, the gravest first. The program returns 1 for every one before at_target.
 Ending = Literal["no_result", "infeasible", "refuted", "mostly_failed", "not_an_optimum", "not_a_fit", "not_converged",
