@@ -26,6 +26,8 @@ Prediction prediction(const WrappedTest& on, const Test& test, const Values& own
   return found;
 }
 
+bool is_differenced(const WrappedTest& on) { return on.bare->describe().differencing.has_value(); }
+
 double plausible(const WrappedTest& on) { return on.mechanism.plausible_max - on.mechanism.null; }
 
 Simulation simulation(const WrappedTest& on, double amplitude) {
@@ -66,6 +68,7 @@ Verdict null_is_the_bare_test(const WrappedTest& on, std::uint64_t) {
                   fmt::format("the test holds the amplitude at {:g}, the mechanism declares the null {:g}",
                               on.own[on.amplitude], on.mechanism.null));
   for (const bool jacobian : {true, false}) {
+    if (jacobian && is_differenced(on)) continue;
     const Prediction bare = prediction(on, *on.bare, on.bare_own, jacobian),
                      with = prediction(on, *on.with, on.own, jacobian);
     const auto compare = [&](const Values& one, const Values& other, const char* what) {
@@ -102,6 +105,8 @@ Verdict limit_is_the_bare_test(const WrappedTest& on, std::uint64_t) {
 Verdict derivative_at_the_null_matches_differences(const WrappedTest& on, std::uint64_t) {
   const bool costly = on.bare->describe().costly;
   Meter meter("d(prediction)/d(amplitude) at the null with one-sided differences", 1e-6);
+  if (is_differenced(on))
+    return not_checked(meter.verdict().compared, "the test has no derivatives: the host differences it as stated");
   const Prediction at = prediction(on, *on.with, on.own, true);
   const std::size_t size = at.values.size();
   const std::span<const double> column =
@@ -133,6 +138,7 @@ Verdict amplitude_has_an_effect(const WrappedTest& on, std::uint64_t) {
   if (prediction(on, *on.with, on.at(moved), false).values == prediction(on, *on.with, on.own, false).values)
     return broken(compared, fmt::format("no prediction changes between {} = {:g} and {:g}",
                                         on.mechanism.parameters[0].name, on.mechanism.null, moved));
+  if (is_differenced(on)) return {.compared = compared};
   const Prediction at = prediction(on, *on.with, on.own, true);
   const auto column = std::span(at.jacobian)
                           .subspan((on.material.parameters.size() + on.amplitude) * at.values.size(), at.values.size());

@@ -132,25 +132,28 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
   found.chi2_before = found.analysis.evidence.fit.chi2;
   found.chi2_after = found.analysis.evidence.fit.chi2;
   found.sets_tried = searched.sets.size();
+  std::string finished_by;
   inquiry.report("mechanisms as rivals", 0.8);
   if (!request.from_nothing) found.rivals = rivals_of(inquiry, found.analysis);
   if (!searched.sets.empty()) {
     found.best = searched.sets.front();
     if (!stand_ins.empty()) {
       inquiry.report("the terms with the tests themselves", 0.9);
-      if (auto finished = with_own_tests(found, stand_ins)) found.best = std::move(*finished);
+      auto finished = with_own_tests(found, stand_ins);
+      finished_by = finished ? "the best of them fitted with the own one"
+                             : "the best of them could not be fitted with the own one";
+      if (finished) found.best = std::move(*finished);
     }
     found.chi2_after = found.best->chi2();
     found.p_after = p_of_rest(found.analysis, found.best->fit);
   }
   found.paths = path_dependence(found.analysis.evidence, found.best ? found.best->fit : found.analysis.evidence.fit);
   settle(found, searched.sets);
-  if (!stand_ins.empty() && found.best)
+  if (!finished_by.empty())
     found.judgement.reasons.push_back(
         {ReasonKind::searched_cheaper,
-         fmt::format(
-             "Terms were searched for with a cheaper method of {}, and the best of them fitted with the own one.",
-             fmt::join(stand_ins.names(), ", "))});
+         fmt::format("Terms were searched for, and weighed against each other, with a cheaper method of {}, and {}.",
+                     fmt::join(stand_ins.names(), ", "), finished_by)});
   if (!searched.anisotropy.empty())
     found.judgement.reasons.push_back({ReasonKind::anisotropy_seen, text::capitalised(searched.anisotropy) + "."});
   if (!found.terms.empty()) {

@@ -131,8 +131,7 @@ void Fitter::begin_with(const std::vector<KindPointer>& kinds) {
   if (!fit)
     throw InputError(
         "discovery: from nothing, the first terms of a material that changes its volume could not be fitted to the "
-        "data. "
-        "Leave \"from_nothing\" out: terms are then looked for beside the model");
+        "data. Leave \"from_nothing\" out: terms are then looked for beside the model");
   root_ = std::move(*fit);
 }
 
@@ -189,14 +188,18 @@ double Fitter::largest_amplitude(const Kind& kind) const {
     const BoundSet set(subject_, kinds);
     const auto workspace = set.assembly().evaluator().make_workspace();
     std::vector<double> start = start_of(root_, set);
-    for (std::size_t k = 1; k < kinds.size(); ++k) start[set.terms()[k].amplitude] = evidence_.fit.free[k - 1];
+    const auto of_first_term = [&](std::size_t which, const char* amplitude) {
+      return evidence_.fit.free[index_of(*evidence_.base, first_terms(by_volume)[which] + "_" + amplitude)];
+    };
+    for (std::size_t k = 1; k < kinds.size(); ++k)
+      start[set.terms()[k].amplitude] = of_first_term(k - 1, k == 1 ? "mu" : "K");
     double weakest = INFINITY;
     for (const auto& shapes : combinations(kind)) {
       const BoundTerm& term = set.terms().front();
       const auto& parameter = set.assembly().layout().parameters[term.amplitude];
       start[term.amplitude] = kind.negative ? -1e-4 : std::max(parameter.min, subject_.from_nothing ? 1e-3 : 0.0);
       // Nothing else resists the volume.
-      if (by_volume && kind.of_volume()) start[term.amplitude] = evidence_.fit.free.back();
+      if (by_volume && kind.of_volume()) start[term.amplitude] = of_first_term(1, "K");
       for (std::size_t k = 0; k < shapes.size(); ++k) start[term.shapes[k]] = shapes[k];
       Eigen::VectorXd r;
       Eigen::MatrixXd J;

@@ -44,17 +44,19 @@ class FullField final : public Test {
           "history");
     if (!input.abscissae.empty() || !output.abscissa_derivative.empty())
       return Status::failed("full_field: points are where they were measured; take mechanisms out that move them");
-    return on_mesh(input, output, prepared_->mesh);
+    return on_mesh(input, output, prepared_->mesh, modified_newton_);
   }
 
-  /// With each triangle in four.
+  /// In equilibrium, with each triangle in four.
   Status agreement(const TestInput& input, std::vector<Agreement>& found) const override {
     const std::size_t n = prepared_->rows.rows().count, m = prepared_->rows.channels().size();
     std::vector<double> coarse(n * m), fine(n * m);
-    if (Status status = on_mesh(input, {coarse, {}, {}, {}}, prepared_->mesh); !status.ok()) return status;
-    if (Status status = on_mesh(input, {fine, {}, {}, {}},
-                                Meshed(prepared_->rows, prepared_->edges, prepared_->smoothing,
-                                       refined(prepared_->mesh.specimen().mesh())));
+    if (Status status = on_mesh(input, {coarse, {}, {}, {}}, prepared_->mesh, modified_newton_); !status.ok())
+      return status;
+    if (Status status = on_mesh(
+            input, {fine, {}, {}, {}},
+            Meshed(prepared_->rows, prepared_->edges, prepared_->smoothing, refined(prepared_->mesh.specimen().mesh())),
+            false);
         !status.ok())
       return status;
     std::vector<double> shift(n * m);
@@ -73,15 +75,20 @@ class FullField final : public Test {
   }
 
  private:
-  Status on_mesh(const TestInput& input, const TestOutput& output, const Meshed& on) const {
-    if (plane_strain_) return simulate(input, output, on, plane::Faces::held);
+  Status on_mesh(const TestInput& input, const TestOutput& output, const Meshed& on, bool few_steps) const {
+    if (plane_strain_) return simulate(input, output, on, plane::Faces::held, few_steps);
     return free_faces::by_volume(
         input, output,
-        [&](const TestInput& at, const TestOutput& out) { return simulate(at, out, on, plane::Faces::incompressible); },
-        [&](const TestInput& at, const TestOutput& out) { return simulate(at, out, on, plane::Faces::free); });
+        [&](const TestInput& at, const TestOutput& out) {
+          return simulate(at, out, on, plane::Faces::incompressible, few_steps);
+        },
+        [&](const TestInput& at, const TestOutput& out) {
+          return simulate(at, out, on, plane::Faces::free, few_steps);
+        });
   }
 
-  Status simulate(const TestInput& input, const TestOutput& output, const Meshed& on, plane::Faces faces) const {
+  Status simulate(const TestInput& input, const TestOutput& output, const Meshed& on, plane::Faces faces,
+                  bool few_steps) const {
     const bool wants_parameters = !output.jacobian.empty();
     if (wants_parameters && !input.model.describe().parameter_derivatives)
       return Status::failed("full_field: the model has no parameter derivatives; difference the whole prediction");
@@ -93,7 +100,7 @@ class FullField final : public Test {
     for (std::size_t k = 0; k < prepared_->rows.steps().size(); ++k) {
       const FieldRows::Step& step = prepared_->rows.steps()[k];
       StepSolver solver(on, k, body);
-      const auto problem = modified_newton_ ? solver.few_steps(wants_parameters) : solver.settle(wants_parameters);
+      const auto problem = few_steps ? solver.few_steps(wants_parameters) : solver.settle(wants_parameters);
       if (problem) return Status::failed(fmt::format("full_field: step {:g}: {}", step.value, *problem));
       if (!output.values.empty()) on.read(step, solver.displacements(), solver.forces(), thickness_, output.values);
       for (std::size_t j = 0; wants_parameters && j < input.model_parameters.size(); ++j) {
@@ -134,7 +141,7 @@ TestFactory factory() {
        Option::choice(
            "method", {"finite_elements", "modified_newton"}, "finite_elements",
            "Whether each step is brought to equilibrium, or takes four steps from the measured displacements with "
-           "one stiffness: a sixth of the time, for searches."),
+           "one stiffness: a quarter of the time, for searches."),
        Option::choice("unseen_sides", {"refuse", "accept"}, "refuse",
                       "What to do where a side lies more than 1.5 spacings from the nearest point."),
        Option::integer("smoothing", 6, {0, 20}, "Degree of the polynomial along a measured side.")},

@@ -47,14 +47,25 @@ Prepared::Prepared(const TestSetup& setup)
 }
 
 std::shared_ptr<const Prepared> prepared(const TestSetup& setup) {
+  // Different fields are made side by side, and one field once.
+  struct Slot {
+    std::mutex mutex;
+    std::weak_ptr<const Prepared> made;
+  };
   static std::mutex mutex;
-  static std::map<std::string, std::weak_ptr<const Prepared>> known;
-  const std::string key = key_of(setup);
-  const std::scoped_lock lock(mutex);
-  std::erase_if(known, [](const auto& one) { return one.second.expired(); });
-  if (auto found = known[key].lock()) return found;
+  static std::map<std::string, std::shared_ptr<Slot>> known;
+  std::shared_ptr<Slot> slot;
+  {
+    const std::scoped_lock lock(mutex);
+    std::erase_if(known, [](const auto& one) { return one.second.use_count() == 1 && one.second->made.expired(); });
+    auto& place = known[key_of(setup)];
+    if (!place) place = std::make_shared<Slot>();
+    slot = place;
+  }
+  const std::scoped_lock lock(slot->mutex);
+  if (auto found = slot->made.lock()) return found;
   auto made = std::make_shared<const Prepared>(setup);
-  known[key] = made;
+  slot->made = made;
   return made;
 }
 

@@ -111,7 +111,8 @@ std::optional<std::string> StepSolver::along_the_way() {
   return not_found;
 }
 
-/// Steps stop where they no longer shrink. Where the first leads to no state of the material, it is taken as linear.
+/// Steps stop where they no longer shrink. Where the first leads to no state of the material, it is taken as linear,
+/// with the derivatives at ũ.
 std::optional<std::string> StepSolver::few_steps(bool by_parameters) {
   constexpr int steps = 4;
   constexpr double shrinks = 0.5;
@@ -128,7 +129,8 @@ std::optional<std::string> StepSolver::few_steps(bool by_parameters) {
     if (step > shrinks * before) break;
     before = step;
     const bool moved = body_.move_by(change.u);
-    if (k > 0 && !moved) break;
+    if (!moved) body_.begin({u_, {}});
+    if (!moved && k > 0) break;
     for (std::size_t dof = 0; dof < u_.size(); ++dof) {
       u_[dof] += change.u[dof];
       f_[dof] = moved ? body_.forces()[dof] : f_[dof] + change.f[dof];
