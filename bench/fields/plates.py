@@ -13,6 +13,7 @@ import argparse
 import csv
 import json
 import subprocess
+import time
 from pathlib import Path
 
 
@@ -81,12 +82,26 @@ PLATES = {
 }
 
 
+def discover(tunica, folder, name):
+    """Prints the terms that are found from nothing, and how long it took."""
+    begin = time.monotonic()
+    subprocess.run([tunica, "discover", folder / "experiment.json", "--from-nothing", "--quick", "-o", folder / "terms",
+                    "--quiet"], check=True, stdout=subprocess.DEVNULL)
+    found = json.loads((folder / "terms/result.json").read_text(encoding="utf-8"))["discovery"]
+    for term in found.get("terms", []):
+        values = ", ".join(f"{parameter} {one['value']:.4g} ({one['low']:.4g} .. {one['high']:.4g})"
+                           for parameter, one in term["parameters"].items())
+        print(f"{name:16} {term['name']}: {values}", flush=True)
+    print(f"{name:16} {found['verdict']} after {time.monotonic() - begin:.0f} s", flush=True)
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("tunica", help="the program")
     arguments.add_argument("data", type=Path, help="the folder with neohookean_low, isihara_low, ...")
     arguments.add_argument("out", type=Path, help="a new folder")
     arguments.add_argument("--only", nargs="*", help="plates such as neohookean_low")
+    arguments.add_argument("--discover", action="store_true", help="look for the terms instead, from nothing")
     given = arguments.parse_args()
     for name in given.only or [f"{plate}_{level}" for plate in PLATES for level in ("low", "high")]:
         plate, level = name.split("_")
@@ -95,6 +110,9 @@ def main():
         convert(given.data / name, folder)
         (folder / "experiment.json").write_text(
             json.dumps(experiment("1e-4 mm" if level == "low" else "1e-3 mm", model), indent=1), encoding="utf-8")
+        if given.discover:
+            discover(given.tunica, folder, name)
+            continue
         subprocess.run([given.tunica, "run", folder / "experiment.json", "-o", folder / "results", "--quiet"], check=True,
                        stdout=subprocess.DEVNULL)
         result = json.loads((folder / "results/result.json").read_text(encoding="utf-8"))
