@@ -115,7 +115,7 @@ FileStanding = Literal["not_looked_for", "far", "near", "ahead"]
 HoldOutVerdict = Literal["predicted", "worse_than_fitted"]
 
 #: What a term of the energy is a function of.
-Invariant = Literal["I1", "I2", "stretches", "fibre", "I1*I2", "I1^2*I2", "I1*I2^2", "I1bar", "I2bar", "J"]
+Invariant = Literal["I1", "I2", "stretches", "fibre", "I1*I2", "I1^2*I2", "I1*I2^2", "I1bar", "I2bar", "fibrebar", "J"]
 
 #: How far a job is.
 JobPhase = Literal["waiting", "running", "ended", "failed"]
