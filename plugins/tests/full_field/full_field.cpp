@@ -75,20 +75,18 @@ class FullField final : public Test {
   }
 
  private:
-  Status on_mesh(const TestInput& input, const TestOutput& output, const Meshed& on, bool few_steps) const {
-    if (plane_strain_) return simulate(input, output, on, plane::Faces::held, few_steps);
+  Status on_mesh(const TestInput& input, const TestOutput& output, const Meshed& on, bool nearly) const {
+    if (plane_strain_) return simulate(input, output, on, plane::Faces::held, nearly);
     return free_faces::by_volume(
         input, output,
         [&](const TestInput& at, const TestOutput& out) {
-          return simulate(at, out, on, plane::Faces::incompressible, few_steps);
+          return simulate(at, out, on, plane::Faces::incompressible, nearly);
         },
-        [&](const TestInput& at, const TestOutput& out) {
-          return simulate(at, out, on, plane::Faces::free, few_steps);
-        });
+        [&](const TestInput& at, const TestOutput& out) { return simulate(at, out, on, plane::Faces::free, nearly); });
   }
 
   Status simulate(const TestInput& input, const TestOutput& output, const Meshed& on, plane::Faces faces,
-                  bool few_steps) const {
+                  bool nearly) const {
     const bool wants_parameters = !output.jacobian.empty();
     if (wants_parameters && !input.model.describe().parameter_derivatives)
       return Status::failed("full_field: the model has no parameter derivatives; difference the whole prediction");
@@ -100,7 +98,7 @@ class FullField final : public Test {
     for (std::size_t k = 0; k < prepared_->rows.steps().size(); ++k) {
       const FieldRows::Step& step = prepared_->rows.steps()[k];
       StepSolver solver(on, k, body);
-      const auto problem = few_steps ? solver.few_steps(wants_parameters) : solver.settle(wants_parameters);
+      const auto problem = nearly ? solver.nearly_settle(wants_parameters) : solver.settle(wants_parameters);
       if (problem) return Status::failed(fmt::format("full_field: step {:g}: {}", step.value, *problem));
       if (!output.values.empty()) on.read(step, solver.displacements(), solver.forces(), thickness_, output.values);
       for (std::size_t j = 0; wants_parameters && j < input.model_parameters.size(); ++j) {
@@ -140,8 +138,8 @@ TestFactory factory() {
                         "From x counter-clockwise to the circumferential axis of the material.", 0.0),
        Option::choice(
            "method", {"finite_elements", "modified_newton"}, "finite_elements",
-           "Whether each step is brought to equilibrium, or takes four steps from the measured displacements with "
-           "one stiffness: a quarter of the time, for searches."),
+           "Whether each step is brought to equilibrium, or near it from the measured displacements with few "
+           "factors of the stiffness: a quarter of the time, for searches."),
        Option::choice("unseen_sides", {"refuse", "accept"}, "refuse",
                       "What to do where a side lies more than 1.5 spacings from the nearest point."),
        Option::integer("smoothing", 6, {0, 20}, "Degree of the polynomial along a measured side.")},

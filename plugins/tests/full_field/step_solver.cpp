@@ -13,6 +13,7 @@ constexpr const char* not_found =
     "the edges that fit the points best were not found; narrow the bounds of the model's parameters";
 // Of the size of the specimen: chords shrink by a fifth or faster, and edges alone by far more.
 constexpr double precise_step = 1e-11, precise_edge = 1e-9;
+constexpr double loose_step = 1e-5;  ///< of the displacements
 constexpr double same_place = 1e-6;  ///< of the displacements
 constexpr double near = 0.1;  ///< of the displacements: what Newton's method may have to move from the measured ones
 
@@ -37,7 +38,7 @@ Eigen::VectorXd StepSolver::rest(const std::vector<double>& u) const { return me
 
 std::optional<std::string> StepSolver::settle(bool by_parameters) {
   const Equilibrium::State before = body_.state();
-  const bool near_by = from_measured(by_parameters);
+  const bool near_by = from_measured(true, by_parameters);
   if (!near_by) {
     body_.begin(before);
     if (auto problem = along_the_way()) return problem;
@@ -63,15 +64,16 @@ StepSolver::Change StepSolver::next() const {
   return change;
 }
 
-/// Newton's method on the inside and the edges at once, several steps a factor as long as they shrink. The last factor
-/// is that of the solution, so that it has the derivatives too.
-bool StepSolver::from_measured(bool by_parameters) {
+/// Newton's method on the inside and the edges at once, several steps a factor as long as they shrink. Precisely, the
+/// last factor is that of the solution, so that it has the derivatives too.
+bool StepSolver::from_measured(bool precisely, bool by_parameters) {
   constexpr int rounds = 6, chords = 8;
   if (!on_.has_starts()) return false;
   body_.begin({on_.start(step_), {}});
   double before = near * largest(body_.displacements());
-  for (int round = 0; round < rounds; ++round) {
-    if (!body_.linearise(by_parameters && round > 0)) return false;
+  const double enough = precisely ? precise_step * size(on_.specimen()) : loose_step * largest(body_.displacements());
+  for (int round = 0; round < (precisely ? rounds : rounds / 2); ++round) {
+    if (!body_.linearise(precisely && by_parameters && round > 0)) return false;
     edges_.linearise(body_);
     double moved = 0;
     for (int chord = 0; chord < chords; ++chord) {
@@ -79,9 +81,9 @@ bool StepSolver::from_measured(bool by_parameters) {
       const double step = largest(change.u);
       if (!std::isfinite(step) || (chord == 0 && step > before) || !body_.move_by(change.u)) return false;
       moved += step;
-      if (step < precise_step * size(on_.specimen())) {
+      if (step < enough) {
         // The edges fit best in the metric of their responses, so these have to be those of the solution.
-        if (round > 0 && moved < same_place * largest(body_.displacements())) return true;
+        if (!precisely || (round > 0 && moved < same_place * largest(body_.displacements()))) return true;
         break;
       }
       const bool slow = chord > 0 && step > 0.2 * before;
@@ -111,31 +113,22 @@ std::optional<std::string> StepSolver::along_the_way() {
   return not_found;
 }
 
-/// Steps stop where they no longer shrink. Where the first leads to no state of the material, it is taken as linear,
-/// with the derivatives at ũ.
-std::optional<std::string> StepSolver::few_steps(bool by_parameters) {
-  constexpr int steps = 4;
-  constexpr double shrinks = 0.5;
-  body_.begin({on_.start(step_), {}});
-  if (!body_.linearise(false)) return singular;
-  edges_.linearise(body_);
+std::optional<std::string> StepSolver::nearly_settle(bool by_parameters) {
+  const bool near_by = from_measured(false, by_parameters);
+  if (!near_by) {
+    body_.begin({on_.start(step_), {}});
+    if (!body_.linearise(false)) return singular;
+    edges_.linearise(body_);
+  }
   u_ = body_.displacements();
   f_ = body_.forces();
-  double before = 1e300;
-  for (int k = 0; k < steps; ++k) {
+  if (!near_by) {
     const Change change = next();
-    const double step = largest(change.u);
-    if (!std::isfinite(step)) return no_edges;
-    if (step > shrinks * before) break;
-    before = step;
-    const bool moved = body_.move_by(change.u);
-    if (!moved) body_.begin({u_, {}});
-    if (!moved && k > 0) break;
+    if (!std::isfinite(largest(change.u))) return no_edges;
     for (std::size_t dof = 0; dof < u_.size(); ++dof) {
       u_[dof] += change.u[dof];
-      f_[dof] = moved ? body_.forces()[dof] : f_[dof] + change.f[dof];
+      f_[dof] += change.f[dof];
     }
-    if (!moved) break;
   }
   if (by_parameters && !body_.stay_with_parameters()) return singular;
   return {};

@@ -23,13 +23,12 @@ class StepSolver {
   std::optional<std::string> settle(bool by_parameters);
   /// The same from where the body is, along the way; moves the body only.
   std::optional<std::string> along_the_way();
-  /// The modified Newton method: at most four steps from the smoothed measured displacements ũ with one stiffness,
+  /// The modified Newton method from the smoothed measured displacements ũ, up to steps of 1e-5 of them,
   ///
-  ///     u ← u − K⁻¹ f(u) + Σ b_k ∂u/∂b_k,   K = ∂f/∂u at ũ,   b from the points,
+  ///     u ← u − K⁻¹ f(u) + Σ b_k ∂u/∂b_k,   K = ∂f/∂u of an earlier u,   b from the points,
   ///
-  /// and derivatives with that stiffness. Errors of ũ enter with their fifth power where they are small.
-  std::optional<std::string> few_steps(bool by_parameters);
-
+  /// with derivatives by that K. Where ũ is far from equilibrium, one linear step from it.
+  std::optional<std::string> nearly_settle(bool by_parameters);
   [[nodiscard]] const std::vector<double>& displacements() const { return u_; }  ///< by dof, mm
   [[nodiscard]] const std::vector<double>& forces() const { return f_; }         ///< by dof, per thickness, kPa·mm
   void by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) const;
@@ -39,7 +38,7 @@ class StepSolver {
     std::vector<double> u, f;  ///< by dof
   };
   [[nodiscard]] Change next() const;
-  bool from_measured(bool by_parameters);
+  bool from_measured(bool precisely, bool by_parameters);
   [[nodiscard]] const FieldRows::Step& step() const { return on_.rows().steps()[step_]; }
   [[nodiscard]] Eigen::VectorXd rest(const std::vector<double>& u) const;
 
