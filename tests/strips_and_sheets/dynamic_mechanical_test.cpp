@@ -170,6 +170,36 @@ std::string refusal(const std::vector<Column>& columns, const Dma& dma = {}) {
   return "accepted";
 }
 
+TEST(DynamicMechanical, HasNoModulusWhereTheMaterialSoftensAsTheLoadRises) {
+  // About the largest stretch so far, softening has one slope upwards and another downwards.
+  for (const auto& [id, amplitude, other] :
+       {std::tuple("stress_softening", 0.3, 0.5), std::tuple("damage", 0.5, 6.0)}) {
+    const auto& mechanism = catalogue().mechanisms().at(id);
+    const auto model = plugins::wrap(mechanism, make_model("neo_hooke"), defaults(mechanism.factory.options));
+    for (const double stretch : {0.8, 1.01, 1.5}) {
+      const auto test = make_dma({{"frequency", {0.1, 1}}}, {.static_stretch = stretch});
+      std::vector<double> values(4);
+      const std::vector<double> p{20, amplitude, other}, own;
+      EXPECT_THAT(test->predict({*model, p, own}, {values, {}, {}, {}}).reason(),
+                  HasSubstr("one modulus where it is stretched more and another"))
+          << id << ", " << stretch;
+      // Without amplitude, and before it begins, it is the base.
+      const auto bare = values_of(*test, *make_model("neo_hooke"), {20});
+      const auto null = values_of(*test, *model, {20, 0, other});
+      for (std::size_t i = 0; i < bare.size(); ++i) EXPECT_NEAR(null[i], bare[i], 1e-8 * bare[0]) << id;
+    }
+    EXPECT_NEAR(values_of(*make_dma({{"frequency", {1}}}), *model, {20, amplitude, other})[0], 60, 1e-3) << id;
+    EXPECT_NEAR(values_of(*make_dma({{"frequency", {1}}}, {.mode = "shear"}), *model, {20, amplitude, other})[0], 20,
+                1e-3)
+        << id;
+  }
+}
+
+TEST(DynamicMechanical, TakesFibresThatBeginToPull) {
+  // At rest the elastic curve bends, which is no matter of memory.
+  EXPECT_GT(values_of(*make_dma({{"frequency", {1}}}), *viscous("gho", 1), {20, 0.1, 30, 1, 40, 0.5, 1})[0], 60);
+}
+
 TEST(DynamicMechanical, SaysWhatIsWrongWithAProtocol) {
   EXPECT_THAT(refusal({{"frequency", {1, 0}}}), HasSubstr("row 2 has the frequency 0.000000 Hz; expected one above 0"));
   EXPECT_THAT(refusal({{"frequency", {1}}, {"static_stretch", {-1}}}), HasSubstr("the static stretch -1.000000"));

@@ -155,7 +155,13 @@ class DynamicMechanical final : public Test {
       Complex modulus;
       if (!(factor > 0 && std::isfinite(factor)))
         return Status::failed(row + "the temperature lies where the shift has no value; narrow the bounds of c2");
-      if (!modulus_at(point, 2 * pi * (*frequency)[i] * factor, lambda, y, modulus))
+      const bool found = modulus_at(point, 2 * pi * (*frequency)[i] * factor, lambda, y, modulus);
+      if (point.has_two_slopes())
+        return Status::failed(row +
+                              "the material softens as it is loaded further than before, so that it has one modulus "
+                              "where it is stretched more and another where it is stretched less; take the mechanism "
+                              "of softening or damage out, or oscillate about a stretch of 1");
+      if (!found)
         return Status::failed(row + "the response to an oscillation is not finite" +
                               (point.failure().empty() ? "" : ": " + point.failure()));
       for (std::size_t k = 0; k < channels_.size() && !values.empty(); ++k)

@@ -17,6 +17,26 @@ constexpr double state_step = 1e-4;   ///< of differences by the state, relative
 /// 1/part.
 constexpr std::array shifts{1.0, -1.0, 2.0, -2.0};
 
+/// Slopes on both sides that differ by more than this part of them are two; smooth ones differ by the third power of
+/// the step.
+constexpr double kink = 1e-3;
+
+/// Whether the stress bends at `at`: `n` points in `stress`, those of each direction from `first` on, in the order of
+/// `shifts`. With three points on each side the slopes are (4 f₁ − f₂ − 3 f₀)/2h and (3 f₀ − 4 f₋₁ + f₋₂)/2h.
+bool bends(const Tensor& at, std::span<const double> stress, std::size_t n, std::size_t first, std::size_t directions) {
+  double apart = 0, size = 0;
+  for (std::size_t c = 0; c < 6; ++c) {
+    size = std::max(size, 2 * strain_step * std::abs(at[c]));
+    for (std::size_t k = 0; k < directions; ++k) {
+      const double* const f = stress.data() + c * n + first + shifts.size() * k;
+      const double ahead = 4 * f[0] - f[2] - 3 * at[c], behind = 3 * at[c] - 4 * f[1] + f[3];
+      apart = std::max(apart, std::abs(ahead - behind));
+      size = std::max({size, std::abs(ahead), std::abs(behind)});
+    }
+  }
+  return apart > kink * size;
+}
+
 bool finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
 }
@@ -67,9 +87,18 @@ bool SmallOscillation::settle(const Tensor& C) {
   return finite(stress_) && finite(tangent_) && finite(state_);
 }
 
+/// Fibres that only pull bend the elastic curve as well, where they begin to.
+bool SmallOscillation::bends_without_memory(std::span<const double> C, std::size_t first, std::size_t count) const {
+  std::vector<double> stress(C.size());
+  const std::size_t n = C.size() / 6;
+  return !model_.evaluate({n, C, parameters_, {}, {}}, {{}, stress, {}, {}, {}}).ok() ||
+         bends(stress_, stress, n, first, count);
+}
+
 bool SmallOscillation::respond(double omega, std::span<const Tensor> directions,
                                std::span<ComplexTensor> changes) const {
   const std::size_t m = state_.size(), d = directions.size();
+  two_slopes_ = false;
   if (m == 0) {
     for (std::size_t k = 0; k < d; ++k) {
       const Tensor dS = slow_change(directions[k]);
@@ -102,6 +131,8 @@ bool SmallOscillation::respond(double omega, std::span<const Tensor> directions,
         C[c * n + 2 * m + shifts.size() * k + q] += shifts[q] * strain_step * directions[k][c];
   if (fails(model_.evaluate({n, C, parameters_, time, state}, {{}, stress, {}, {}, after}))) return false;
   if (!finite(stress) || !finite(after) || !finite(tangent)) return false;
+  two_slopes_ = bends(at, stress, n, 2 * m, d) && !bends_without_memory(C, 2 * m, d);
+  if (two_slopes_) return false;
 
   const auto by_state = [&](const std::vector<double>& of, std::size_t component, std::size_t k) {
     return (of[component * n + 2 * k] - of[component * n + 2 * k + 1]) / (2 * steps[k]);

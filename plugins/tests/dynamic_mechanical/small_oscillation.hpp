@@ -38,14 +38,19 @@ class SmallOscillation {
   [[nodiscard]] const Tensor& stress() const { return stress_; }
   /// The slow change of S along dC.
   [[nodiscard]] Tensor slow_change(const Tensor& dC) const { return change(tangent_, dC); }
-  /// The change of S in an oscillation of angular frequency ω along each of these directions. False as above.
+  /// The change of S in an oscillation of angular frequency ω along each of these directions. False as above, and where
+  /// the response has two slopes.
   bool respond(double omega, std::span<const Tensor> directions, std::span<ComplexTensor> changes) const;
   [[nodiscard]] const std::string& failure() const { return failure_; }
+  /// Whether the last response had one slope forwards and another backwards, which its memory alone makes: softening by
+  /// the largest load so far does, and the static state is that load.
+  [[nodiscard]] bool has_two_slopes() const { return two_slopes_; }
 
  private:
   /// dS = ½ (2 ∂S/∂C) : dC
   static Tensor change(const std::array<double, 36>& tangent, const Tensor& dC);
   bool fails(const Status& status) const;
+  [[nodiscard]] bool bends_without_memory(std::span<const double> C, std::size_t first, std::size_t count) const;
 
   const Model& model_;
   std::span<const double> parameters_;
@@ -53,6 +58,7 @@ class SmallOscillation {
   std::array<double, 36> tangent_{};
   std::vector<double> state_;
   mutable std::string failure_;
+  mutable bool two_slopes_ = false;
 };
 
 }  // namespace tunica::dynamic_mechanical
