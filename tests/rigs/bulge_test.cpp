@@ -145,6 +145,29 @@ TEST(Bulge, HasExactDerivatives) {
   expect_exact_derivatives(*make_bulge({3, 8}), *make_model("hyperfoam", terms), {25, 6, 0.3}, {1.05});
 }
 
+// A rubber keeps its volume, λ3 = 1/λ². A foam of Poisson's ratio ν with free faces has J = λ3 λ², and σ3 = 0 asks for
+// λ3 = J^(−β) with β = ν/(1 − 2ν) (Storakers, J. Mech. Phys. Solids 34:125, 1986): λ3 = λ^(−2β/(1 + β)).
+TEST(Bulge, ThinsAsItsMaterialDoes) {
+  const auto test = make_bulge({0, 5, 9});
+  const auto thinning = [&](const Model& model, const std::vector<double>& p) {
+    const std::vector<double> own{1.05};
+    std::vector<double> values(9), diagnostics(6);
+    EXPECT_TRUE(test->predict({model, p, own}, {values, {}, {}, diagnostics}).ok());
+    return std::pair(std::vector<double>(values.begin() + 3, values.begin() + 6), diagnostics);
+  };
+  const auto [rubber, of_rubber] = thinning(*make_model("neo_hooke"), {100});
+  Options terms;
+  terms.set("terms", std::int64_t{1});
+  terms.set("poisson", std::string("shared"));
+  constexpr double nu = 0.1, beta = nu / (1 - 2 * nu);
+  const auto [foam, of_foam] = thinning(*make_model("hyperfoam", terms), {25, 6, nu});
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(of_rubber[i] * rubber[i] * rubber[i], 1, 1e-12);
+    EXPECT_NEAR(of_foam[i] / std::pow(foam[i], -2 * beta / (1 + beta)), 1, 1e-8);
+  }
+  EXPECT_GT(of_foam[2], 1.2 / (foam[2] * foam[2]));
+}
+
 // A flat membrane bears nothing; a data file may begin there.
 TEST(Bulge, BeginsFlat) {
   const auto test = make_bulge({0, 5});

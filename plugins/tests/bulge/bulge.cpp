@@ -181,7 +181,7 @@ class Bulge final : public Test {
                                 ", where the energy overflows; narrow the bounds of the model's parameters");
       }
       if (!output.diagnostics.empty()) {
-        output.diagnostics[i] = 1 / (at.apex * at.apex);
+        output.diagnostics[i] = inflation.thickness_stretch(at.apex);
         output.diagnostics[n + i] = flat ? rim : inflation.rim_stretch();
       }
       const auto write = [&](std::span<double> column, const Inflation::Reading& change, double factor) {

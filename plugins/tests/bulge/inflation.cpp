@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "../thick_wall_pressurisation/rule.hpp"
 
@@ -51,8 +52,13 @@ Mesh::Mesh(std::size_t elements) : nodes(degree * elements + 1) {
 
 Inflation::Inflation(const Mesh& mesh, const Model& model, std::span<const double> parameters, plane::Faces faces,
                      double rim)
-    : mesh_(mesh), membrane_(model, parameters, {1, 0}, faces), parameter_count_(parameters.size()), rim_(rim) {
+    : mesh_(mesh),
+      membrane_(model, parameters, {1, 0}, faces),
+      pole_(membrane_),
+      parameter_count_(parameters.size()),
+      rim_(rim) {
   membrane_.resize(mesh.points.size());
+  pole_.resize(1);
   const auto n = static_cast<long>(mesh.nodes);
   f_ = Vector::Constant(n, rim);
   g_ = Vector::Zero(n);
@@ -235,6 +241,11 @@ Inflation::Reading Inflation::solve(const Vector& right) const {
   f.head(n - 1) = step.head(n - 1);
   g.segment(1, n - 2) = step.segment(n - 1, n - 2);
   return reading_of(f, g, step[2 * n - 3]);
+}
+
+double Inflation::thickness_stretch(double stretch) const {
+  pole_.C = {stretch * stretch, stretch * stretch, 0};
+  return pole_.evaluate(false, false) ? std::sqrt(pole_.normal[0]) : std::numeric_limits<double>::quiet_NaN();
 }
 
 double Inflation::rim_stretch() const { return std::sqrt(membrane_.C[mesh_.points.size() - 1]); }

@@ -68,6 +68,9 @@ class Inflation {
   [[nodiscard]] Reading by_parameter(std::size_t j) const { return solve(-by_parameters_.col(static_cast<long>(j))); }
   /// Stretch along the meridian at the Gauss point next to the rim.
   [[nodiscard]] double rim_stretch() const;
+  /// Stretch through the thickness where the membrane is stretched alike in all directions, as at the pole. Not a
+  /// number where it has no answer.
+  [[nodiscard]] double thickness_stretch(double stretch) const;
 
  private:
   using Vector = Eigen::VectorXd;
@@ -86,6 +89,7 @@ class Inflation {
 
   const Mesh& mesh_;
   plane::Membrane membrane_;
+  mutable plane::Membrane pole_;
   std::size_t parameter_count_;
   double rim_, height_ = 0, load_ = 0;
   Vector f_, g_, residual_, by_load_;
