@@ -14,8 +14,9 @@ namespace {
 using Role = Observable::Role;
 using Kind = Observable::Kind;
 
-std::vector<Parameter> own_parameters() {
-  return {{"contact_point", "mm", 0, -0.1, 0.1, Scale::linear,
+/// Of a sphere of 1 mm, unless its radius is given: contact is found within a tenth of it.
+std::vector<Parameter> own_parameters(double radius = 1) {
+  return {{"contact_point", "mm", 0, -0.1 * radius, 0.1 * radius, Scale::linear,
            "Recorded depth at which the sphere touches the specimen; true depth is recorded less this.", ""}};
 }
 
@@ -31,8 +32,8 @@ class Indentation final : public Test {
     contact_.radius = setup.options.number("radius");
     contact_.thickness = setup.options.number("thickness");
     check_sizes(law);
-    bind(setup, law);
-    description_.parameters = own_parameters();
+    bind(setup);
+    description_.parameters = own_parameters(contact_.radius);
     description_.nulls = {0};
     description_.diagnostics = {"shear_modulus"};
     description_.diagnostic_units = {"kPa"};
@@ -64,6 +65,7 @@ class Indentation final : public Test {
     const std::size_t n = rows_.count, parameters = input.model_parameters.size();
     for (std::size_t i = 0; i < n; ++i) {
       const double depth = recorded[i] - input.test_parameters[0];
+      if (depth > contact_.deepest() * (1 + 1e-9)) return too_deep(i, recorded[i], depth);
       const double force = contact_.force(depth), slope = modulus.value * contact_.slope(depth);
       if (!std::isfinite(modulus.value * force))
         return Status::failed(
@@ -84,6 +86,15 @@ class Indentation final : public Test {
   }
 
  private:
+  /// The recorded depth alone decides nothing: an actuator may have any offset.
+  [[nodiscard]] Status too_deep(std::size_t row, double recorded, double depth) const {
+    return Status::failed(
+        fmt::format("indentation: row {} has depth {:g} mm, {:g} mm from contact, and the law holds to {:g} mm; leave "
+                    "deeper rows out with \"where\", give \"contact_point\" another value or bounds, or choose the law "
+                    "'deep' for a neo-Hookean layer on a rigid base",
+                    row + 1, recorded, depth, contact_.deepest()));
+  }
+
   void check_sizes(const std::string& law) const {
     if (!(contact_.radius > 0))
       throw InputError(
@@ -99,19 +110,15 @@ class Indentation final : public Test {
       throw InputError(fmt::format("indentation: {}; correct the sizes, or choose another \"law\"", why));
   }
 
-  void bind(const TestSetup& setup, const std::string& law) {
+  void bind(const TestSetup& setup) {
     for (const TestRows::Column& column : setup.rows.abscissae) {
       depth_.assign(column.values.begin(), column.values.end());
       rows_.abscissae = {column};
     }
     if (depth_.empty()) throw InputError("indentation: no column is mapped to 'depth'; map one in \"columns\"");
-    for (std::size_t i = 0; i < depth_.size(); ++i) {
-      if (std::isfinite(depth_[i]) && depth_[i] <= contact_.deepest() * (1 + 1e-9)) continue;
-      throw InputError(
-          fmt::format("indentation: row {} has depth {:g} mm, and the law '{}' holds to {:g} mm; leave deeper rows out "
-                      "with \"where\", or choose the law 'deep' for a neo-Hookean layer on a rigid base",
-                      i + 1, depth_[i], law, contact_.deepest()));
-    }
+    for (std::size_t i = 0; i < depth_.size(); ++i)
+      if (!std::isfinite(depth_[i]))
+        throw InputError(fmt::format("indentation: row {} has depth {}; expected a number in mm", i + 1, depth_[i]));
     rows_.abscissae.front().values = depth_;
     rows_.count = depth_.size();
     rows_.channels = setup.rows.channels;
