@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -63,9 +64,11 @@ class Indentation final : public Test {
     const std::span<const double> recorded =
         input.abscissae.empty() ? std::span<const double>(depth_) : input.abscissae.front();
     const std::size_t n = rows_.count, parameters = input.model_parameters.size();
+    double deepest = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const double depth = recorded[i] - input.test_parameters[0];
       if (depth > contact_.deepest() * (1 + 1e-9)) return too_deep(i, recorded[i], depth);
+      deepest = std::max(deepest, depth);
       const double force = contact_.force(depth), slope = modulus.value * contact_.slope(depth);
       if (!std::isfinite(modulus.value * force))
         return Status::failed(
@@ -82,6 +85,11 @@ class Indentation final : public Test {
       }
       if (!output.diagnostics.empty()) output.diagnostics[i] = modulus.value;
     }
+    // Below the sphere the layer is shortened by about δ/h.
+    if (contact_.law == Law::deep)
+      if (Status status = modulus.neo_hookean(input.model, input.model_parameters, deepest / contact_.thickness);
+          !status.ok())
+        return Status::failed("indentation: " + status.reason());
     return {};
   }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "tunica/detail/solve_strip.hpp"
 
 namespace tunica::indentation {
@@ -57,6 +59,30 @@ Status ShearModulus::evaluate(const Model& model, std::span<const double> parame
   }
   if (!std::isfinite(value))
     return Status::failed("the energy is undefined at rest; narrow the bounds of the parameters");
+  return {};
+}
+
+Status ShearModulus::neo_hookean(const Model& model, std::span<const double> parameters, double strain) const {
+  constexpr double alike = 0.05;
+  if (!(strain > 0)) return {};
+  const double shortest = 1 - strain, half = 1 - strain / 2;
+  const std::array<double, 4> stretch{shortest, half, 1 / half, 1 / shortest};
+  std::array<double, 4> stress, lateral;
+  free_strip::Scratch scratch;
+  if (Status status = free_strip::solve(
+          model, {.loaded = 0, .parameters = parameters, .stretch = stretch, .stress = stress, .lateral = lateral},
+          scratch);
+      !status.ok())
+    return status;
+  for (std::size_t k = 0; k < stretch.size(); ++k) {
+    const double ratio = stress[k] / (value * (stretch[k] * stretch[k] - 1 / stretch[k]));
+    if (!(std::abs(ratio - 1) <= alike))
+      return Status::failed(
+          fmt::format("a strip at a stretch of {:.3g} bears {:.3g} times the stress of a neo-Hookean one, and the law "
+                      "'deep' is of that; choose a neo-Hookean model, leave deeper rows out with \"where\", or choose "
+                      "the law 'bonded' for small depths",
+                      stretch[k], ratio));
+  }
   return {};
 }
 

@@ -18,6 +18,9 @@ struct ShearModulus {
 
   /// Fails where the material is not isotropic: strips along t and z then differ, or their widths do.
   Status evaluate(const Model& model, std::span<const double> parameters, bool derivatives);
+  /// After evaluate(): fails where a strip along t that is shortened by up to `strain`, or lengthened as far, does not
+  /// bear the stress μ (λ² − 1/λ) of a neo-Hookean one within a twentieth.
+  [[nodiscard]] Status neo_hookean(const Model& model, std::span<const double> parameters, double strain) const;
 };
 
 }  // namespace tunica::indentation
