@@ -49,8 +49,36 @@ TEST(Damage, LoadsUnloadsAndReloadsAStripAsTheClosedFormsDo) {
   }
 }
 
+/// Where the energy of a neo-Hookean strip, μ/2 (λ² + 2/λ − 3), is W.
+double stretch_of(double W, double mu) {
+  double low = 1, high = 10;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (mu / 2 * (middle * middle + 2 / middle - 3) < W ? low : high) = middle;
+  }
+  return low;
+}
+
 TEST(Damage, SoftensToFailure) {
-  // All of the stress is lost beyond W = w, the sooner the larger m.
+  // Whatever m, 1/e of the stress is left at W = w. The larger m, the more is left before, and the less beyond.
+  constexpr double mu = 25, w = 8;
+  std::vector<double> path{1};
+  for (const double part : {0.5, 1., 2.}) path.push_back(stretch_of(part * w, mu));
+  std::vector<double> before{0}, beyond{1};
+  for (const double m : {1., 2., 4., 20.}) {
+    const auto values = values_of(*make_strip(path), *damaged("neo_hooke", "failure"), {mu, 1, w, m});
+    const auto left = [&](std::size_t i) { return values[i] / (mu * (path[i] * path[i] - 1 / path[i])); };
+    EXPECT_NEAR(left(2), std::exp(-1), 1e-9) << m;
+    EXPECT_GT(left(1), before.back()) << m;
+    EXPECT_LT(left(3), beyond.back()) << m;
+    before.push_back(left(1));
+    beyond.push_back(left(3));
+  }
+  EXPECT_GT(before.back(), 0.999);
+  EXPECT_LT(beyond[3], 1e-3);
+}
+
+TEST(Damage, BearsMostBeforeItFails) {
   std::vector<double> rising;
   for (int k = 0; k <= 60; ++k) rising.push_back(1 + 0.02 * k);
   const auto values = values_of(*make_strip(rising), *damaged("neo_hooke", "failure"), {25, 1, 8, 4});
