@@ -55,7 +55,7 @@ TEST(Ring, IsTwoStrips) {
 }
 
 // Ericksen (1954), a sector that is straightened: a layer at R is stretched by Λ/R with Λ = λ Rc. Neo-Hookean legs bear
-// F = 2 w μ ∫ (Λ/R − R²/Λ²) dR. That is about (H/Rc)²/12 more stretch than at the centreline.
+// F = 2 w μ ∫ (Λ/R − R²/Λ²) dR.
 TEST(Ring, StraightensAsASectorDoes) {
   const double mu = 60, Ro = Ri + H;
   const auto model = make_model("neo_hooke");
@@ -68,6 +68,31 @@ TEST(Ring, StraightensAsASectorDoes) {
     EXPECT_NEAR(found[i], thin[i], 0.01 * thin[i]);
     EXPECT_NE(found[i], thin[i]);
   }
+}
+
+// The thickest wall, H/Rc = 0.5, at λ = 1.1, which the root of 2π Rc λ = 2 d + 2π (a + ½ H/√λ) is. The term of c01
+// bears F = 4 w c01 ∫ (1 − R³/Λ³) dR.
+TEST(Ring, StraightensATermByItsCurvature) {
+  constexpr double stretch = 1.1, inner = 6, thick = 4, centre = 8, pin = 2;
+  const double d = pi * (centre * stretch - pin - 0.5 * thick / std::sqrt(stretch));
+  const auto gain = [&](const std::vector<double>& p) {
+    const auto force = [&](const std::string& layers) {
+      return predicted(
+          *make_rig(
+              "ring",
+              {{"inner_radius", inner}, {"thickness", thick}, {"width", w}, {"pin_radius", pin}, {"wall", layers}},
+              {{"pin_distance", {d}}}, {"force"}),
+          *make_model("mooney_rivlin"), p)[0];
+    };
+    return force("straightened") / force("centreline") - 1;
+  };
+  const double L = stretch * centre, outer = inner + thick;
+  const double first = (L * std::log(outer / inner) - (std::pow(outer, 3) - std::pow(inner, 3)) / (3 * L * L)) / thick,
+               second = 1 - (std::pow(outer, 4) - std::pow(inner, 4)) / (4 * L * L * L * thick);
+  EXPECT_NEAR(gain({30, 0}), first / (stretch - 1 / (stretch * stretch)) - 1, 1e-9);
+  EXPECT_NEAR(gain({0, 30}), second / (1 - std::pow(stretch, -3)) - 1, 1e-9);
+  EXPECT_NEAR(gain({30, 0}), 0.024, 5e-4);
+  EXPECT_NEAR(gain({0, 30}), -0.19, 5e-3);
 }
 
 // At the length of its centreline the ring bears nothing.
