@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/models/history_model.hpp"
+#include "scaled_by_energy.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::damage {
@@ -43,67 +43,17 @@ struct Law {
   }
 };
 
-/// State: Wmax; in principal axes W at rest and Wmax. The energy it returns is that of the base, with which Wmax is
-/// compared.
-class DamagedModel final : public HistoryModel {
+class DamagedModel final : public ScaledByEnergy {
  public:
   DamagedModel(std::unique_ptr<Model> base, bool to_failure)
-      : HistoryModel("damage", std::move(base), parameters_of(to_failure), 1, 2) {}
+      : ScaledByEnergy("damage", std::move(base), parameters_of(to_failure)) {}
 
  private:
-  Status evaluate_step(Step& step) const override {
-    const MaterialPoints& points = step.base_points;
-    MaterialResponse& out = step.base_response;
-    const std::size_t n = points.count;
-    const Law law(step.parameters);
-    const bool tangent = !out.tangent.empty(), torn = law.d != 0 && (tangent || !out.stress.empty());
-    if (!torn && step.new_state.empty()) return base().evaluate(points, out);
-
-    std::vector<double> energy, stress;
-    if (out.energy.empty()) {
-      energy.resize(n);
-      out.energy = energy;
-    }
-    if (torn && out.stress.empty()) {
-      stress.resize(6 * n);
-      out.stress = stress;
-    }
-    if (Status status = base().evaluate(points, out); !status.ok()) return status;
-    double at_rest = 0;
-    const double identity[] = {1, 1, 1, 0, 0, 0};
-    if (Status status = base().evaluate({1, identity, points.parameters, {}, {}}, {{&at_rest, 1}, {}, {}, {}, {}});
-        !status.ok())
-      return status;
-    // 2 ∂W/∂C, which is S itself where the base has no memory.
-    std::vector<double> conservative;
-    std::span<const double> by_energy = out.stress;
-    if (torn && tangent && base().describe().history_size > 0) {
-      conservative.resize(6 * n);
-      by_energy = conservative;
-      if (Status status = base().evaluate({n, points.C, points.parameters, {}, {}}, {{}, conservative, {}, {}, {}});
-          !status.ok())
-        return status;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const double W = out.energy[i] - at_rest, before = step.old_state.empty() ? 0 : step.old_state[i];
-      const double largest = std::isnan(W) ? W : std::max(before, W);
-      if (torn) tear(law, largest, W > before, n, i, by_energy, out);
-      if (!step.new_state.empty()) step.new_state[i] = largest;
-    }
-    return {};
-  }
-
-  /// S → η S, and the tangent consistent with it: η A + η' S ⊗ 2 ∂W/∂C while Wmax grows.
-  static void tear(const Law& law, double largest, bool grows, std::size_t n, std::size_t i,
-                   std::span<const double> by_energy, const MaterialResponse& out) {
-    const double eta = law.eta(largest), slope = grows ? law.slope(largest) : 0;
-    for (std::size_t a = 0; a < (out.tangent.empty() ? 0 : 6); ++a)
-      for (std::size_t b = 0; b < 6; ++b) {
-        double& entry = out.tangent[(6 * a + b) * n + i];
-        entry = eta * entry + slope * out.stress[a * n + i] * by_energy[b * n + i];
-      }
-    // The stress last: where the base has no memory, `by_energy` is it.
-    for (std::size_t a = 0; a < 6; ++a) out.stress[a * n + i] *= eta;
+  [[nodiscard]] bool scales(const Step& step) const override { return step.parameters[0] != 0; }
+  [[nodiscard]] Factor factor(std::span<const double> own, double W, double before, double) const override {
+    const Law law(own);
+    const double largest = std::isnan(W) ? W : std::max(before, W);
+    return {law.eta(largest), W > before ? law.slope(largest) : 0};
   }
 
   /// g → η g with all derivatives: dη = −(1 − e^{−x}) dd − d e^{−x} dx, dx = x (m dWmax/Wmax − m dw/w + ln(Wmax/w) dm).

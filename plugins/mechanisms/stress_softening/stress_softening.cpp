@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/models/history_model.hpp"
+#include "../damage/scaled_by_energy.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::stress_softening {
@@ -31,63 +31,20 @@ std::vector<Parameter> own_parameters() {
 /// rounding of the energy would take for a memory.
 constexpr double unloaded = 1e-12;
 
-/// η and dη/dW, at energy W where the largest of earlier points was `largest`.
-struct Softening {
-  double eta = 1, slope = 0;
-  Softening(double W, double largest, double s, double m) {
-    if (!(W < largest)) return;
-    const double width = m * largest, x = (largest - W) / width;
-    eta = 1 - s * std::erf(x);
-    slope = s * std::numbers::inv_sqrtpi * 2 * std::exp(-x * x) / width;
-  }
-};
-
-/// State: Wmax; in principal axes W at rest and Wmax. The energy it returns is that of the base, with which Wmax is
-/// compared.
-class SoftenedModel final : public HistoryModel {
+class SoftenedModel final : public ScaledByEnergy {
  public:
   explicit SoftenedModel(std::unique_ptr<Model> base)
-      : HistoryModel("stress_softening", std::move(base), own_parameters(), 1, 2) {}
+      : ScaledByEnergy("stress_softening", std::move(base), own_parameters()) {}
 
  private:
-  Status evaluate_step(Step& step) const override {
-    const MaterialPoints& points = step.base_points;
-    MaterialResponse& out = step.base_response;
-    const std::size_t n = points.count;
-    const double s = step.parameters[0], m = step.parameters[1];
-    const bool tangent = !out.tangent.empty();
-    // Points at rest are on their first path: nothing is soft yet.
-    const bool soft = s != 0 && !step.old_state.empty() && (tangent || !out.stress.empty());
-    if (!soft && step.new_state.empty()) return base().evaluate(points, out);
-
-    std::vector<double> energy, stress;
-    if (out.energy.empty()) {
-      energy.resize(n);
-      out.energy = energy;
-    }
-    if (soft && out.stress.empty()) {
-      stress.resize(6 * n);
-      out.stress = stress;
-    }
-    if (Status status = base().evaluate(points, out); !status.ok()) return status;
-    double at_rest = 0;
-    if (Status status = energy_at_rest(points.parameters, at_rest); !status.ok()) return status;
-    std::vector<double> conservative;
-    std::span<const double> by_energy = out.stress;
-    if (soft && tangent && base().describe().history_size > 0) {
-      conservative.resize(6 * n);
-      by_energy = conservative;
-      if (Status status = base().evaluate({n, points.C, points.parameters, {}, {}}, {{}, conservative, {}, {}, {}});
-          !status.ok())
-        return status;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const double W = out.energy[i] - at_rest, before = step.old_state.empty() ? 0 : step.old_state[i];
-      if (soft && before > unloaded * largest_stress(out.stress, n, i))
-        soften(Softening(W, before, s, m), n, i, by_energy, out);
-      if (!step.new_state.empty()) step.new_state[i] = std::isnan(W) ? W : std::max(before, W);
-    }
-    return {};
+  /// Points at rest are on their first path: nothing is soft yet.
+  [[nodiscard]] bool scales(const Step& step) const override {
+    return step.parameters[0] != 0 && !step.old_state.empty();
+  }
+  [[nodiscard]] Factor factor(std::span<const double> own, double W, double before, double stress) const override {
+    if (!(before > unloaded * stress && W < before)) return {};
+    const double s = own[0], width = own[1] * before, x = (before - W) / width;
+    return {1 - s * std::erf(x), s * std::numbers::inv_sqrtpi * 2 * std::exp(-x * x) / width};
   }
 
   void remember_step(const AxisStep& step) const override {
@@ -131,30 +88,6 @@ class SoftenedModel final : public HistoryModel {
       g[step.parameter_place] -= lost * bare;
       g[step.parameter_place + 1] -= by_x * x / m * bare;
     }
-  }
-
-  Status energy_at_rest(std::span<const double> parameters, double& W) const {
-    const double identity[] = {1, 1, 1, 0, 0, 0};
-    return base().evaluate({1, identity, parameters, {}, {}}, {{&W, 1}, {}, {}, {}, {}});
-  }
-
-  static double largest_stress(std::span<const double> stress, std::size_t n, std::size_t i) {
-    return std::max({std::abs(stress[i]), std::abs(stress[n + i]), std::abs(stress[2 * n + i])});
-  }
-
-  /// S → η S, and the tangent consistent with it: η A + S ⊗ 2 ∂η/∂C = η A + η' S ⊗ S_W with S_W = 2 ∂W/∂C, which is S
-  /// itself where the base has no memory.
-  static void soften(const Softening& softening, std::size_t n, std::size_t i, std::span<const double> by_energy,
-                     const MaterialResponse& out) {
-    if (softening.eta == 1 && softening.slope == 0) return;
-    for (std::size_t a = 0; a < (out.tangent.empty() ? 0 : 6); ++a) {
-      for (std::size_t b = 0; b < 6; ++b) {
-        double& entry = out.tangent[(6 * a + b) * n + i];
-        entry = softening.eta * entry + softening.slope * out.stress[a * n + i] * by_energy[b * n + i];
-      }
-    }
-    // The stress last: where the base has no memory, `by_energy` is it.
-    for (std::size_t a = 0; a < 6; ++a) out.stress[a * n + i] *= softening.eta;
   }
 };
 
