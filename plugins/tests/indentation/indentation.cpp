@@ -17,8 +17,10 @@ using Kind = Observable::Kind;
 
 /// Of a sphere of 1 mm, unless its radius is given: contact is found within a tenth of it.
 std::vector<Parameter> own_parameters(double radius = 1) {
-  return {{"contact_point", "mm", 0, -0.1 * radius, 0.1 * radius, Scale::linear,
-           "Recorded depth at which the sphere touches the specimen; true depth is recorded less this.", ""}};
+  return {
+      {"contact_point", "mm", 0, -0.1 * radius, 0.1 * radius, Scale::linear,
+       "Recorded depth at which the sphere touches, by default within a tenth of the radius; true depth is less by it.",
+       ""}};
 }
 
 /// A rigid sphere that is pressed into a layer or a half-space.
