@@ -13,7 +13,7 @@ together, simple, *alone, pressed = (run["best"] for run in runs)
 for best in (together, *alone):
     for name, value in TRUTH.items():
         low, high = best["parameters"][name]["ci95"]
-        # Four standard errors: one of these eight lies farther off once in 2000 seeds of the noise.
+        # Four standard errors: one of these eight lies farther off once in 1400 seeds of the noise.
         assert abs(best["parameters"][name]["value"] - value) < high - low, (name, low, high)
     assert not best["misfit"]["contradicts_noise"], best["misfit"]
 low, high = together["parameters"]["c10"]["ci95"]
