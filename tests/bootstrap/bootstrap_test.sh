@@ -95,12 +95,22 @@ case $2 in
     output_has "tunica run $here/examples/lamb_aorta/experiment.json --seed 7"
     ;;
   builds_what_a_first_result_needs_before_it_and_the_rest_after_it)
-    expect 3 "$here/bootstrap" run
+    RUN_STATUS=1 expect 1 "$here/bootstrap" run
     grep -oE -- "--target .*|^tunica run" "$CALLS" >"$here/order"
     diff - "$here/order" <<<$'--target first_result\ntunica run\n--target product' || fail "another order"
     output_has "now building the rest"
-    : >"$CALLS" && RUN_STATUS=130 expect 130 "$here/bootstrap" run
-    ! grep -q "target product" "$CALLS" || fail "went on to build after Ctrl-C"
+    for status in 2 3 130; do
+      : >"$CALLS" && RUN_STATUS=$status expect $status "$here/bootstrap" run
+      ! grep -q "target product" "$CALLS" || fail "went on to build after status $status"
+    done
+    ;;
+  keeps_the_status_of_a_run_where_the_rest_cannot_be_built)
+    pretend cmake <<<'[[ $* != *"--target product"* ]] || { printf "FAILED: b.o\nb.cpp:1: error: no\n"; exit 1; }'
+    for status in 0 1; do
+      RUN_STATUS=$status expect $status "$here/bootstrap" run
+      output_has "b.cpp:1: error: no"
+      output_has "the result stands; what failed is the build of the other verbs"
+    done
     ;;
   refuses_a_missing_experiment_and_an_unknown_command)
     expect 2 "$here/bootstrap" run nowhere.json
