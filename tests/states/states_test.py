@@ -150,6 +150,25 @@ class States(unittest.TestCase):
         low, high = best["parameters"][f"{state['name']}.f_k1"]["difference"]["ci95"]
         self.assertTrue(low < 20 < high, (low, high))
 
+    def test_a_parameter_is_named_with_its_model_or_without(self):
+        """A run of one model leaves the model's name out; what no model of the run has is said, name by name."""
+        models = {"wall": {"type": "gho", "parameters": {"kappa": {"fixed": 0.1}}}, "plain": {"type": "neo_hooke"}}
+        experiment = self.frame(models, self.sheets({"before": ("both", None), "after": ("around", "treated")}), runs=[
+            {"model": name, "optimizer": "lm"} for name in models],
+            states={"treated": {"parameters": {"wall.mu": {"max": 70}, "mu": {}, "k1": {}}}}, stop={"max_evaluations": 20})
+        self.write("experiment.json", experiment)
+        self.tunica("run", "experiment.json", "-o", "out", "--no-certificate", "-j", 1)
+        result = json.loads((self.folder / "out/result.json").read_text("utf-8"))
+        wall, plain = ({run["run"]: run for run in result["runs"]}[f"{name}/lm"] for name in models)
+        self.assertEqual(["treated.k1", "treated.mu"], sorted(n for n in wall["best"]["parameters"] if "treated" in n))
+        self.assertEqual(["treated.mu"], sorted(name for name in plain["best"]["parameters"] if "treated" in name))
+        self.assertEqual(70, wall["best"]["parameters"]["treated.mu"]["max"])  # the name with the model's counts first
+        said = sorted(text for text in result["warnings"] if "no model of it has that parameter" in text)
+        self.assertEqual(2, len(said), said)  # of the run of the other model
+        for name, text in zip(("k1", "wall.mu"), said):
+            self.assertIn("in a run of plain", text)
+            self.assertIn(f"'{name}'", text)
+
     def refused(self, **more):
         experiment = self.frame({"wall": {"type": "gho"}}, self.sheets({"one": ("both", more.pop("state", None))}), **more)
         self.write("experiment.json", experiment)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -190,19 +191,22 @@ void Builder::compose() {
 
 /// Its models have the parameters of the first ones, but for those that differ.
 void Builder::add_state(const experiment::StateEntry& state, std::size_t models) {
-  std::vector<Differing>& differing = parts_.layout.differing;
-  const std::size_t before = differing.size();
+  std::set<std::string> unread;
+  for (const auto& [name, setting] : state.differs) unread.insert(name);
   for (std::size_t m = 0; m < models; ++m) {
-    std::vector<Slot> slots = slots_in(state, slots_[m], m, settings_, differing);
+    std::vector<Slot> slots =
+        slots_in(state, parts_.models[m].name, slots_[m], m, settings_, parts_.layout.differing, unread);
     slots_.push_back(std::move(slots));
     RunModel other = parts_.models[m];
     other.name = fmt::format("{} ({})", other.name, state.name);
     other.state = state.name;
     parts_.models.push_back(std::move(other));
   }
-  if (differing.size() == before)
+  for (const std::string& name : unread)
     states_without_effect_.push_back(fmt::format(
-        "the state '{}' changes nothing in this run: its model has none of the parameters that differ", state.name));
+        "the state '{}' says that '{}' differs, which changes nothing in a run of {}: no model of it has that "
+        "parameter",
+        state.name, name, fmt::join(experiment_.models_of(run_), " and ")));
 }
 
 void Builder::bind() {

@@ -24,19 +24,33 @@ ParameterSetting together(const ParameterSetting& in_state, const Slot& slot) {
   return all;
 }
 
+/// How a state may name a parameter of a model: with the model's name, which counts before the one without it.
+std::vector<std::string> names_of(const std::string& parameter, const std::string& model) {
+  const std::string prefix = model + ".";
+  if (parameter.starts_with(prefix)) return {parameter, parameter.substr(prefix.size())};
+  return {prefix + parameter, parameter};
+}
+
 }  // namespace
 
-std::vector<Slot> slots_in(const experiment::StateEntry& state, const std::vector<Slot>& bare, std::size_t owner,
-                           std::deque<ParameterSetting>& settings, std::vector<Differing>& differing) {
+std::vector<Slot> slots_in(const experiment::StateEntry& state, const std::string& model, const std::vector<Slot>& bare,
+                           std::size_t owner, std::deque<ParameterSetting>& settings, std::vector<Differing>& differing,
+                           std::set<std::string>& unread) {
   std::vector<Slot> slots = bare;
   for (std::size_t position = 0; position < slots.size(); ++position) {
     Slot& slot = slots[position];
-    const auto found = state.differs.find(slot.declaration.name);
-    if (found == state.differs.end()) {
+    const ParameterSetting* own = nullptr;
+    for (const std::string& name : names_of(slot.declaration.name, model)) {
+      const auto found = state.differs.find(name);
+      if (found == state.differs.end()) continue;
+      unread.erase(name);
+      if (own == nullptr) own = &found->second;
+    }
+    if (own == nullptr) {
       slot.same_as = {owner, position};
       continue;
     }
-    slot.setting = &settings.emplace_back(together(found->second, slot));
+    slot.setting = &settings.emplace_back(together(*own, slot));
     differing.push_back({state.name, slot.declaration.name, state.name + "." + slot.declaration.name});
     slot.declaration.name = differing.back().own;
   }
