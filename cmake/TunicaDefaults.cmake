@@ -56,6 +56,17 @@ endif()
 # g++ collects its garbage from 128 MiB on. With 2 GiB hardly a file of this project gets there, for up to 2 GiB a job.
 if(TUNICA_COLD_BUILD)
   add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=2097152>)
+  # Ninja starts as many jobs as there are cores, and two. It compiles no more at a time than the memory that is free
+  # now carries, unless CMAKE_BUILD_PARALLEL_LEVEL says how many jobs there shall be, as ./bootstrap does.
+  if(CMAKE_GENERATOR MATCHES "Ninja" AND NOT DEFINED ENV{CMAKE_BUILD_PARALLEL_LEVEL} AND NOT CMAKE_JOB_POOL_COMPILE)
+    cmake_host_system_information(RESULT free_memory QUERY AVAILABLE_PHYSICAL_MEMORY)  # MiB
+    math(EXPR carried "${free_memory} / 2048")
+    if(carried LESS 1)
+      set(carried 1)
+    endif()
+    set_property(GLOBAL APPEND PROPERTY JOB_POOLS compile=${carried})
+    set(CMAKE_JOB_POOL_COMPILE compile)
+  endif()
 endif()
 
 # tunica_precompiled_headers(NAME TYPE HEADERS ... LIBRARIES ... OPTIONS ...): headers that many targets include, compiled once
