@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 
 #include "discover/rubber.hpp"
+#include "discovery/common/common_discovery.hpp"
 #include "tunica/error.hpp"
 
 using namespace tunica;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 namespace {
 
@@ -36,6 +38,32 @@ TEST(DiscoveryBlock, NamesWhatIsWrongAndWhatToWrite) {
   EXPECT_THAT(refusal(rubber), AllOf(HasSubstr("terms"), HasSubstr("most_terms")));
   rubber.experiment["discovery"] = {{"from_nothing", true}, {"most_parameters", 4}, {"model", "rubber"}};
   EXPECT_EQ(refusal(rubber), "");
+}
+
+TEST(DiscoveryFromNothing, RefusesASpecimenInSeveralStates) {
+  trial::Rubber rubber;
+  rubber.experiment["discovery"] = {{"model", "rubber"}};
+  rubber.experiment["states"] = {{"warm", {{"parameters", {{"mu", nlohmann::json::object()}}}}}};
+  rubber.experiment["tests"]["pure_shear"]["state"] = "warm";
+  rubber.measure(7);
+  const auto words = AllOf(HasSubstr("'pure_shear'"), HasSubstr("'warm'"), HasSubstr("Leave \"from_nothing\" out"));
+  EXPECT_THAT([&] { (void)rubber.discover(true); }, ThrowsMessage<InputError>(words));
+  const auto read = rubber.read();
+  discovery::Request request = discovery::request_of(read);
+  const std::vector<discovery::Member> members{{"one", read}};
+  request.from_nothing = true;
+  EXPECT_THAT([&] { (void)discovery::discover_together(members, request, tunica::testing::catalogue()); },
+              ThrowsMessage<InputError>(words));
+}
+
+TEST(DiscoveryFromNothing, TakesTheTestsOfOneStateOfSeveral) {
+  trial::Rubber rubber;
+  rubber.experiment["discovery"] = {{"model", "rubber"}};
+  rubber.experiment["states"] = {{"warm", {{"parameters", {{"mu", nlohmann::json::object()}}}}}};
+  rubber.experiment["tests"]["pure_shear"]["state"] = "warm";
+  rubber.experiment["runs"][0]["tests"] = {"circumferential", "equibiaxial"};
+  rubber.measure(7);
+  EXPECT_TRUE(rubber.discover(true).best.has_value());
 }
 
 TEST(AddedTermRefusal, SaysWhichLawSuitsTheInvariant) {

@@ -168,6 +168,7 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
 Discovery discover(const experiment::Experiment& experiment, const Request& request,
                    const plugins::Catalogue& catalogue, const diagnosis::Progress& progress) {
   check(request, catalogue);
+  check_states(request, experiment);
   const experiment::RunEntry* const run = diagnosis::run_of_model(experiment, request.model);
   const StandIns stand_ins = run == nullptr ? StandIns() : StandIns(experiment, *run, catalogue);
   const bool directions = has_directions(experiment, request.model, catalogue);

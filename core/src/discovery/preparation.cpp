@@ -26,6 +26,22 @@ void check(const Request& request, const plugins::Catalogue& catalogue) {
         "--plugin-path a folder that holds it");
 }
 
+void check_states(const Request& request, const experiment::Experiment& experiment) {
+  if (!request.from_nothing) return;
+  const experiment::RunEntry* const run = diagnosis::run_of_model(experiment, request.model);
+  for (const experiment::TestEntry& test : experiment.tests) {
+    if (test.state.empty()) continue;
+    if (run != nullptr && std::find(run->tests.begin(), run->tests.end(), test.name) == run->tests.end()) continue;
+    throw InputError(
+        fmt::format("discovery: the test '{}' is in the state '{}', whose parameters are of the model '{}'; from "
+                    "nothing, terms are "
+                    "of a specimen in one state. Leave \"from_nothing\" out, so that terms are looked for beside the "
+                    "model, or take "
+                    "the tests of other states out of the run",
+                    test.name, test.state, request.model));
+  }
+}
+
 std::vector<KindPointer> scaled_kinds(const Fitter& fitter, std::vector<Kind> kinds) {
   tbb::parallel_for(std::size_t{0}, kinds.size(),
                     [&](std::size_t k) { kinds[k].largest = fitter.largest_amplitude(kinds[k]); });

@@ -15,6 +15,9 @@ namespace tunica::discovery {
 /// Throws InputError where no model is named, or no plugin can write terms.
 void check(const Request& request, const plugins::Catalogue& catalogue);
 
+/// Throws InputError where terms would have to be found from nothing for a specimen in several states.
+void check_states(const Request& request, const experiment::Experiment& experiment);
+
 /// The analysis of the base; rows that are gross take no part.
 diagnosis::Analysis screened(const diagnosis::Inquiry& inquiry);
 

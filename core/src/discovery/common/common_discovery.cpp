@@ -182,6 +182,7 @@ double p_of_rests(const std::vector<double>& p_values) {
 CommonDiscovery discover_together(const std::vector<Member>& members, const Request& request,
                                   const plugins::Catalogue& catalogue, const diagnosis::Progress& progress) {
   check(request, catalogue);
+  for (const Member& member : members) check_states(request, member.experiment);
   if (members.empty())
     throw InputError("discovery: there is no specimen to search in. Give the table one row at least");
   CommonDiscovery found{request};
