@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cohort, stability, report and export: what the program writes and prints, from Python."""
 import json
+import os
+import signal
 
 import tunica
 from support import EXAMPLES, TRELOAR, Case, of_treloar, program, result_of, rows_of
@@ -56,6 +58,26 @@ class Studies(Case):
             found.specimen("d")
 
     def test_ctrl_c_keeps_the_specimens_that_are_done(self):
+        pressed = []
+
+        def press(share, text):
+            if share > 0 and not pressed:
+                pressed.append(text)
+                os.kill(os.getpid(), signal.SIGINT)
+
+        out = self.folder / "out"
+        with self.assertRaises(tunica.Interrupted) as raised:
+            tunica.cohort(self.cohort(), out, threads=1, progress=press)
+        self.assertEqual(["1 of 3 specimens"], pressed)
+        self.assertEqual(str(out), raised.exception.directory)
+        self.assertFalse((out / "result.json").exists())
+        records = {path: path.stat().st_mtime_ns for path in out.glob("specimens/*/record.json")}
+        self.assertIn(len(records), (1, 2))
+        found = tunica.cohort(self.folder / "cohort.json", raised.exception.directory)
+        self.assertEqual(records, {path: path.stat().st_mtime_ns for path in records})
+        self.assertEqual({"fitted"}, {specimen["outcome"] for specimen in found.specimens})
+
+    def test_what_progress_raises_ends_a_cohort(self):
         class Enough(Exception):
             pass
 
@@ -65,8 +87,6 @@ class Studies(Case):
         with self.assertRaises(Enough):
             tunica.cohort(self.cohort(), self.folder / "out", threads=1, progress=stop)
         self.assertFalse((self.folder / "out/result.json").exists())
-        found = tunica.cohort(self.folder / "cohort.json", self.folder / "out")
-        self.assertEqual({"fitted"}, {specimen["outcome"] for specimen in found.specimens})
 
     def test_stability_is_what_the_program_prints(self):
         experiment = EXAMPLES / "lamb_aorta/experiment.json"
