@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of the studio, served from Python."""
 import json
+import os
+import pathlib
+import unittest.mock
 import urllib.error
 import urllib.request
 
 import tunica
-from support import Case
+from support import PROGRAM, Case
 
 
 class Studio(Case):
@@ -30,4 +33,30 @@ class Studio(Case):
         with self.assertRaisesRegex(tunica.InputError, "there is no such folder"):
             tunica.studio(self.folder / "missing", browser=False)
         with tunica.studio(self.folder, browser=False), self.assertRaisesRegex(tunica.InputError, "serves this folder"):
+            tunica.studio(self.folder, browser=False)
+
+    def in_path(self, script):
+        """A package as a wheel has it, without its program, and a shell that finds this one."""
+        found = self.folder / "bin" / "tunica"
+        found.parent.mkdir(exist_ok=True)
+        found.write_text(f"#!/bin/sh\n{script}\n")
+        found.chmod(0o755)
+        return (unittest.mock.patch("tunica.pages.PROGRAM", "nowhere"),
+                unittest.mock.patch.dict(os.environ, {"PATH": f"{found.parent}:/bin:/usr/bin"}))
+
+    def test_a_program_in_the_path_has_to_be_of_this_version(self):
+        for script, words in (("echo tunica 0.0.7", "bin/tunica in PATH is tunica 0.0.7; expected tunica "),
+                              ("exit 3", "is no tunica that tells its version; expected tunica ")):
+            without, path = self.in_path(script)
+            with without, path, self.assertRaisesRegex(tunica.InputError, words + tunica.__version__):
+                tunica.studio(self.folder, browser=False)
+        without, path = self.in_path(f'exec "{pathlib.Path(PROGRAM).absolute()}" "$@"')
+        with without, path, tunica.studio(self.folder, browser=False) as page:
+            self.assertEqual([], self.ask(page)["data"])
+
+    def test_without_a_program_it_says_where_one_comes_from(self):
+        with unittest.mock.patch("tunica.pages.PROGRAM", "nowhere"), \
+                unittest.mock.patch.dict(os.environ, {"PATH": str(self.folder)}), \
+                self.assertRaisesRegex(tunica.InputError, f"found none at .*nowhere or in PATH; .* Install tunica "
+                                                          f"{tunica.__version__}"):
             tunica.studio(self.folder, browser=False)

@@ -41,19 +41,38 @@ class Studio:
         self._process.stdout.close()
 
 
+def _version_of(program):
+    """What `program --version` prints; empty where it fails."""
+    try:
+        return subprocess.run([program, "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True,
+                              timeout=30).stdout.strip()
+    except (OSError, ValueError, subprocess.SubprocessError):
+        return ""
+
+
 def _program():
-    """The program that was installed with this package, else the one that a shell would find."""
+    """The program that was installed with this package, else the one of the same version that a shell would find."""
     beside = pathlib.Path(_core.__file__).absolute().parent / PROGRAM
-    found = str(beside) if os.access(beside, os.X_OK) else shutil.which("tunica")
+    if os.access(beside, os.X_OK):
+        return str(beside)
+    wanted = f"tunica {_core.version}"
+    found = shutil.which("tunica")
     if found is None:
-        raise InputError("studio() starts the program tunica, and there is none beside this package or in PATH; install "
-                         "it, or add its folder to PATH")
+        raise InputError(f"studio() starts the program tunica, and found none at {beside} or in PATH; a wheel of pip has "
+                         f"none inside. Install {wanted}, or build it with ./bootstrap build and add build/release/bin to "
+                         "PATH")
+    version = _version_of(found)
+    if version != wanted:
+        raise InputError(f"studio() found no program beside this package, and {found} in PATH is "
+                         f"{version or 'no tunica that tells its version'}; expected {wanted}, as this package. Install "
+                         "that version, or put its folder first in PATH")
     return found
 
 
 def studio(folder=".", *, port=0, browser=True):
     """Serves the page of the project `folder`, on this machine only, and opens it where `browser` is true. port=0 is any
-    that is free. Raises InputError where the folder is missing or is served already."""
+    that is free. Raises InputError where the folder is missing or is served already, or where no program tunica of this version is
+    installed."""
     words = [_program()]
     for plugins in _paths:
         words += ["--plugin-path", os.path.abspath(plugins)]
