@@ -169,6 +169,28 @@ class States(unittest.TestCase):
             self.assertIn("in a run of plain", text)
             self.assertIn(f"'{name}'", text)
 
+    def test_a_name_without_a_model_is_that_of_every_layer(self):
+        models = {"media": {"type": "neo_hooke"}, "adventitia": {"type": "neo_hooke"}}
+        tube = {"type": "thick_wall_pressurisation", "inner_radius": 2, "axial_stretch": 1.2,
+                "layers": [{"model": name, "thickness": 0.4} for name in models]}
+        columns = {"pressure": "p", "outer_diameter_stretch": "d"}
+        tests = {name: {**tube, "data": {"file": f"{name}.csv", "columns": columns, "noise": {"relative": "1 %"}}}
+                 for name in ("before", "after")}
+        tests["after"]["state"] = "treated"
+        for name in tests:
+            rows = "".join(f"{p},{1 + p / 20}\n" for p in range(1, 9))
+            (self.folder / f"{name}.csv").write_text("p [kPa],d\n" + rows, "utf-8")
+        experiment = self.frame(models, tests, states={"treated": {"parameters": {"mu": {}}}}, runs=[{"optimizer": "lm"}])
+        self.simulated(experiment, {"media.mu": 60, "adventitia.mu": 40, "treated.media.mu": 80, "treated.adventitia.mu": 50})
+        for named, own in (("mu", ["treated.adventitia.mu", "treated.media.mu"]), ("media.mu", ["treated.media.mu"])):
+            experiment["states"]["treated"]["parameters"] = {named: {}}
+            self.write("layers.json", experiment)
+            self.tunica("run", "layers.json", "-o", f"fitted {named}", "--no-certificate", "-j", 1)
+            result = json.loads((self.folder / f"fitted {named}" / "result.json").read_text("utf-8"))
+            found = result["runs"][0]["best"]["parameters"]
+            self.assertEqual(own, sorted(name for name in found if name.startswith("treated")))
+            self.assertFalse([text for text in result["warnings"] if "no model of it has" in text])
+
     def refused(self, **more):
         experiment = self.frame({"wall": {"type": "gho"}}, self.sheets({"one": ("both", more.pop("state", None))}), **more)
         self.write("experiment.json", experiment)
