@@ -157,11 +157,11 @@ class Ledger {
       for (std::size_t out = 0; out < fit.kinds.size(); ++out) {
         Key key = key_of(fit.kinds);
         key.erase(key.begin() + static_cast<std::ptrdiff_t>(out));
-        const auto of_volume = [&](bool is) {
+        const auto with_volume = [&](bool is) {
           return std::count_if(fit.kinds.begin(), fit.kinds.end(),
                                [is](const KindPointer& kind) { return kind->of_volume() == is; });
         };
-        if (of_volume(fit.kinds[out]->of_volume()) < 2 || all_.contains(key) || !tried_.insert(key).second) continue;
+        if (with_volume(fit.kinds[out]->of_volume()) < 2 || all_.contains(key) || !tried_.insert(key).second) continue;
         if (auto smaller = fitter_.without(fit, out, worth)) keep(key, std::move(*smaller));
       }
   }
