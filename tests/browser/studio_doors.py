@@ -62,9 +62,17 @@ def nothing_outside_the_project(studio, outside):
         "format": 1, "models": {"neo_hooke": {"type": "neo_hooke"}}, "optimizers": {"lm": {"type": "ceres_lm"}},
         "tests": {"strip": {"type": "uniaxial", "direction": "axial", "data": {"file": str(outside / "secret.csv"), "columns": {"stretch": "stretch", "stress": "stress"}}}},
         "runs": [{"model": "neo_hooke", "optimizer": "lm"}]}))
-    for path in ("problem", "check"):
-        status, said = studio.post(f"/api/{path}", {"file": "names_others.json"})
-        assert status == 403 and "outside of the project" in said, said
+    strip = {"type": "external", "command": ["true"], "files": [str(outside / "secret.csv")], "results": {},
+             "data": {"file": "own.csv", "columns": {"stretch": "stretch", "stress": "stress"}}}
+    (studio.folder / "own.csv").write_text("stretch,stress\n1,0\n1.1,1\n1.2,3\n")
+    experiment = json.loads((studio.folder / "names_others.json").read_text())
+    (studio.folder / "names_files.json").write_text(json.dumps({**experiment, "tests": {"strip": strip}}))
+    for name in ("names_others.json", "names_files.json"):
+        for path, question in (("problem", {"file": name}), ("check", {"file": name}),
+                               *(("start", {"verb": verb, "experiment": name}) for verb in ("run", "diagnose", "discover"))):
+            status, said = studio.post(f"/api/{path}", question)
+            assert status == 403 and "outside of the project" in said, f"{path} {question}: {status} {said}"
+    assert not (studio.folder / "results").exists()
 
 
 def files_are_shown_apart(studio):

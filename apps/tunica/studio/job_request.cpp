@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "execution/files.hpp"
+#include "studio/confined.hpp"
 #include "studio/project_folder.hpp"
 #include "text/escaped.hpp"
 #include "tunica/error.hpp"
@@ -35,11 +36,12 @@ std::string new_folder(const std::string& stem, const char* kind) {
   return folder.generic_string();
 }
 
-JobRecord resumed(const std::string& id) {
+JobRecord resumed(const Session& session, const std::string& id) {
   for (JobRecord& job : job_records()) {
     if (job.id != id) continue;
     if (!job.is_resumable())
       throw InputError(fmt::format("nothing in {} can be resumed; start the run anew", job.folder));
+    static_cast<void>(read_confined(session, file_inside(job.experiment)));
     job.words = {"run", file_inside(job.experiment).generic_string(), "-o", inside(job.folder).generic_string(),
                  "--resume"};
     job.ended.reset();
@@ -50,9 +52,10 @@ JobRecord resumed(const std::string& id) {
   throw InputError(fmt::format("there is no job '{}' to resume; load the page again", text::excerpt(id)));
 }
 
-JobRecord of_experiment(const std::string& verb, const nlohmann::json& request) {
+JobRecord of_experiment(const Session& session, const std::string& verb, const nlohmann::json& request) {
   JobRecord job{.verb = verb};
   job.experiment = file_inside(request.at("experiment").get<std::string>()).generic_string();
+  static_cast<void>(read_confined(session, job.experiment));
   job.folder = new_folder(stem_of(job.experiment), verb == "run"        ? "fit"
                                                    : verb == "diagnose" ? "diagnosis"
                                                                         : "discovery");
@@ -97,10 +100,10 @@ JobRecord of_export(const nlohmann::json& request) {
 
 }  // namespace
 
-JobRecord job_of(const nlohmann::json& request) {
+JobRecord job_of(const Session& session, const nlohmann::json& request) {
   const auto verb = request.at("verb").get<std::string>();
-  if (verb == "run" && request.contains("resume")) return resumed(request["resume"]);
-  if (verb == "run" || verb == "diagnose" || verb == "discover") return of_experiment(verb, request);
+  if (verb == "run" && request.contains("resume")) return resumed(session, request["resume"]);
+  if (verb == "run" || verb == "diagnose" || verb == "discover") return of_experiment(session, verb, request);
   if (verb == "report") return of_report(request);
   if (verb == "export") return of_export(request);
   throw InputError(fmt::format("the studio starts no job '{}'; it starts run, diagnose, discover, report and export",

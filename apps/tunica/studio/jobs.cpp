@@ -72,7 +72,8 @@ std::string state_of(const JobRecord& job, bool runs) {
 
 }  // namespace
 
-Jobs::Jobs(std::vector<std::string> plugins) : plugins_(std::move(plugins)), watch_([this] { watch(); }) {}
+Jobs::Jobs(const Session& session, std::vector<std::string> plugins)
+    : session_(session), plugins_(std::move(plugins)), watch_([this] { watch(); }) {}
 
 Jobs::~Jobs() {
   constexpr auto patience = 3s;  // less than the supervisor has with this process
@@ -99,7 +100,7 @@ json Jobs::start(const nlohmann::json& request) {
   std::unique_lock lock(mutex_);
   if (running_.size() >= most)
     throw InputError(fmt::format("{} jobs are running already; wait for one, or stop it", most));
-  JobRecord job = job_of(request);
+  JobRecord job = job_of(session_, request);
   for (const auto& [id, process] : running_)
     if (!job.folder.empty() && find(id).folder == job.folder)
       throw InputError(fmt::format("a job writes to {} already; wait for it, or stop it", job.folder));

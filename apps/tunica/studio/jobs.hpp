@@ -13,6 +13,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <sys/types.h>
 
+#include "session.hpp"
 #include "studio/job_record.hpp"
 
 namespace tunica::app::studio {
@@ -22,7 +23,7 @@ namespace tunica::app::studio {
 class Jobs {
  public:
   /// `plugins`: options that every command needs to find the plugins of this process.
-  explicit Jobs(std::vector<std::string> plugins);
+  Jobs(const Session& session, std::vector<std::string> plugins);
   ~Jobs();
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
@@ -45,6 +46,7 @@ class Jobs {
   void finish(const std::string& id, int status);
   [[nodiscard]] JobRecord find(const std::string& id);
 
+  const Session& session_;
   const std::vector<std::string> plugins_;
   std::mutex starting_, mutex_;  ///< one start at a time; what is below
   std::map<std::string, pid_t> running_;

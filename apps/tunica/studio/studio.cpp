@@ -77,7 +77,7 @@ int serve_page(const GlobalOptions& asked, const StudioOptions& options) {
   hold_project();
   const execution::InterruptWatch interrupts;
   studio::Doorkeeper door;
-  studio::Jobs jobs(plugin_words(global));
+  studio::Jobs jobs(session, plugin_words(global));
   studio::Desk desk(session, door, jobs);
   studio::WebService service;
   service.port = options.port;
@@ -117,7 +117,8 @@ void add_studio(CLI::App& app, GlobalOptions& global, Action& action) {
       "Examples:\n"
       "  tunica studio\n"
       "  tunica studio my_project --no-browser --port 4300\n\n"
-      "It listens on this machine only, and reads and writes nothing outside the folder.");
+      "It listens on this machine only, and reads and writes nothing outside the folder. A fit of an external test\n"
+      "starts the program that the test names, which may do what you may.");
   verb->callback([&global, &action, options] { action = [&global, options] { return serve_page(global, *options); }; });
 }
 

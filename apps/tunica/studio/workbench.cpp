@@ -18,6 +18,7 @@
 #include "execution/plan.hpp"
 #include "experiment/json_document.hpp"
 #include "serving/served_run.hpp"
+#include "studio/confined.hpp"
 #include "studio/doorkeeper.hpp"
 #include "studio/history.hpp"
 #include "studio/project_folder.hpp"
@@ -111,18 +112,6 @@ const execution::PlannedRun& run_of(const execution::Plan& plan, const std::stri
   throw InputError(fmt::format("the experiment has no run '{}'. {}", label, data::suggestion(label, labels)));
 }
 
-/// Its data, and what its options name: a mesh, a template.
-std::vector<fs::path> files_of(const experiment::TestEntry& test) {
-  std::vector<fs::path> files = test.data.files;
-  for (const auto& [name, value] : test.options.values()) {
-    const auto* const text = std::get_if<std::string>(&value);
-    std::error_code none;
-    if (text != nullptr && !text->empty() && fs::is_regular_file(test.folder / *text, none))
-      files.push_back(test.folder / *text);
-  }
-  return files;
-}
-
 /// The page evaluates at every move of a slider: nothing of others may be started by that.
 void refuse_programs(const experiment::Experiment& experiment) {
   for (const auto& test : experiment.tests)
@@ -142,13 +131,6 @@ void refuse_other_count(const std::vector<double>& values, const assembly::Assem
 Workbench::Workbench(const Session& session) : session_(session) {}
 Workbench::~Workbench() = default;
 
-experiment::Experiment Workbench::read(const fs::path& file) const {
-  auto experiment = session_.read(file, experiment::Purpose::prediction);
-  for (const auto& test : experiment.tests)
-    for (const fs::path& named : files_of(test)) require_inside(named, file.string());
-  return experiment;
-}
-
 std::shared_ptr<const Workbench::Open> Workbench::opened(const std::string& name) {
   constexpr std::size_t most = 6;
   const fs::path file = file_inside(name);
@@ -162,7 +144,7 @@ std::shared_ptr<const Workbench::Open> Workbench::opened(const std::string& name
     }
   }
   std::vector<std::pair<fs::path, fs::file_time_type>> sources{{file, fs::last_write_time(file)}};
-  auto open = std::make_shared<Open>(Open{name, read(file), std::move(sources)});
+  auto open = std::make_shared<Open>(Open{name, read_confined(session_, file), std::move(sources)});
   for (const auto& test : open->experiment.tests)
     for (const fs::path& named : files_of(test)) open->sources.emplace_back(named, fs::last_write_time(named));
   refuse_programs(open->experiment);
@@ -194,7 +176,7 @@ json Workbench::save(const std::string& name, const json& document, bool as_new)
       free_name(inside((file.parent_path() / ("trial-of-" + file.filename().string())).generic_string()));
   execution::write_atomically(trial, document.dump(2) + '\n');
   try {
-    static_cast<void>(read(trial));
+    static_cast<void>(read_confined(session_, trial));
   } catch (const InputError& problem) {
     std::error_code none;
     fs::remove(trial, none);
@@ -277,7 +259,7 @@ json Workbench::judge(const std::string& name, const std::string& label, const s
 }
 
 json Workbench::check(const std::string& name) {
-  const auto experiment = calibration::offline(read(file_inside(name)));
+  const auto experiment = calibration::offline(read_confined(session_, file_inside(name)));
   return check_json(calibration::examine(experiment, session_.catalogue()));
 }
 

@@ -44,7 +44,6 @@ class Workbench {
  private:
   struct Open;
   std::shared_ptr<const Open> opened(const std::string& file);
-  [[nodiscard]] experiment::Experiment read(const std::filesystem::path& file) const;
 
   const Session& session_;
   std::mutex mutex_;
