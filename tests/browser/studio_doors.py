@@ -2,6 +2,7 @@
 """Who may ask `tunica studio`, and for what: token, Host, Origin, names of files, sizes, jobs that end with the server.
 Needs no browser."""
 import argparse
+import concurrent.futures
 import http.client
 import json
 import os
@@ -46,7 +47,7 @@ def nothing_outside_the_project(studio, outside):
     os.symlink(outside / "secret.csv", studio.folder / "link.csv")
     os.symlink(outside, studio.folder / "linked")
     names = ("../secret.csv", "/etc/passwd", "a/../../secret.csv", "./x.csv", "..", "link.csv", "linked/secret.csv",
-             ".tunica-studio/lock", "a\u0000b", "a\u202eb", "a\nb", "")
+             ".tunica-studio/lock", "-o", "--resume", "a\u0000b", "a\u202eb", "a\nb", "")
     for name in names:
         for path, question in (("look", {"files": [name]}), ("import", {"files": [name]}), ("document", {"file": name}), ("problem", {"file": name}),
                                ("check", {"file": name}), ("save", {"file": name, "document": {}}), ("start", {"verb": "run", "experiment": name}),
@@ -98,6 +99,9 @@ def uploads_have_limits_and_plain_names(studio):
     assert studio.upload("-o.csv", rig_file())[1]["file"] == "o.csv"
     assert studio.upload("o.csv", rig_file())[1]["file"] == "o-2.csv", "a file was overwritten"
     assert not list(studio.folder.parent.glob("*.csv"))
+    with concurrent.futures.ThreadPoolExecutor(16) as crowd:
+        said = list(crowd.map(lambda k: studio.upload("same.csv", b"%d" % k)[1]["file"], range(32)))
+    assert sorted((studio.folder / name).read_bytes() for name in said) == sorted(b"%d" % k for k in range(32)), "uploads of one name were lost"
 
 
 def errors_carry_the_words_of_the_core(studio):
@@ -117,11 +121,16 @@ def what_changes_in_the_folder_is_read_again(studio):
     (studio.folder / "changing.csv").write_bytes(rig_file().replace(b";4,", b";9,"))
     largest.append(max(studio.ask("problem", file=file)["runs"][0]["channels"][0]["y"]))
     assert largest[1] > 1.5 * largest[0], largest
-    changed = studio.ask("document", file=file)["document"]
-    changed["models"] = {"ogden": {"type": "no_such_model"}}
-    status, said = studio.post("/api/save", {"file": file, "document": changed})
-    assert status == 400 and "no_such_model" in said["error"] and "trial" not in said["error"], said
-    assert "no_such_model" not in (studio.folder / file).read_text() and not list(studio.folder.glob("trial*"))
+    read = studio.ask("document", file=file)
+    changed = {**read["document"], "models": {"ogden": {"type": "no_such_model"}}}
+    status, said = studio.post("/api/save", {"file": file, "hash": read["hash"], "document": changed})
+    assert status == 400 and "no_such_model" in said["error"] and "passing" not in said["error"], said
+    assert "no_such_model" not in (studio.folder / file).read_text() and not list(studio.folder.glob(".passing*"))
+    with (studio.folder / file).open("a") as text:
+        text.write("\n")  # an editor saves
+    status, said = studio.post("/api/save", {"file": file, "hash": read["hash"], "document": read["document"]})
+    assert status == 409 and "has changed since" in said["error"], said
+    assert studio.ask("save", file=file, hash=studio.ask("document", file=file)["hash"], document=read["document"])["file"] == file
 
 
 def every_example_opens_and_follows_its_sliders(studio):

@@ -57,9 +57,9 @@ std::string type_of(const std::filesystem::path& file) {
 
 json save_upload(const std::string& wished, const std::string& bytes) {
   if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty; choose another one", text::excerpt(wished)));
-  const auto file = free_name(inside(file_name(wished)));
-  execution::write_atomically(file, bytes);
-  return {{"file", file.generic_string()}};
+  const FreeName name(inside(file_name(wished)));
+  execution::write_atomically(name.file, bytes);
+  return {{"file", name.file.generic_string()}};
 }
 
 }  // namespace
@@ -123,8 +123,8 @@ json Desk::asked(const WebRequest& request) {
   if (path == "/api/import") return import_rig_files(question, session_.catalogue());
   if (path == "/api/document") return Workbench::document(text("file"));
   if (path == "/api/save")
-    return workbench_.save(text("file"), detail::parse_json<json>(request.body).at("document"),
-                           question.value("as_new", false));
+    return workbench_.save(text("file"), question.value("hash", std::string()),
+                           detail::parse_json<json>(request.body).at("document"), question.value("as_new", false));
   if (path == "/api/problem") return workbench_.problem(text("file"));
   if (path == "/api/check") return workbench_.check(text("file"));
   if (path == "/api/simulate") return workbench_.simulate(text("file"), text("run"), question.at("values"));
@@ -152,6 +152,8 @@ WebReply Desk::operator()(const WebRequest& request) {
     return json_reply(200, asked(request));
   } catch (const Refused& why) {
     return refusal(request, 403, why.what());
+  } catch (const Overtaken& why) {
+    return problem(409, why.what());
   } catch (const nlohmann::json::exception& why) {
     return problem(400, fmt::format("the question is not as expected: {}; load the page again", why.what()));
   } catch (const InputError& why) {

@@ -30,6 +30,7 @@ JobRecord record_of(const json& saved, std::string id) {
   if (saved.at("ended").is_number()) job.ended = saved["ended"].get<double>();
   if (saved.at("code").is_number()) job.code = saved["code"].get<int>();
   job.asked_to_stop = saved.value("asked_to_stop", false);
+  job.output = saved.value("output", std::string());
   return job;
 }
 
@@ -76,7 +77,8 @@ void write_record(const JobRecord& job) {
                       {"started", job.started},
                       {"ended", job.ended ? json(*job.ended) : json(nullptr)},
                       {"code", job.code ? json(*job.code) : json(nullptr)},
-                      {"asked_to_stop", job.asked_to_stop}};
+                      {"asked_to_stop", job.asked_to_stop},
+                      {"output", job.output}};
   folder_of_jobs();
   execution::write_atomically(job.file(".json"), saved.dump(1) + '\n');
 }

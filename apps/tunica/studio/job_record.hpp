@@ -19,6 +19,7 @@ struct JobRecord {
   std::optional<double> ended = {};          ///< none: it runs, or the server was ended
   std::optional<int> code = {};              ///< of its end
   bool asked_to_stop = false;
+  std::string output = {};  ///< the one file that the verb writes; empty where it writes a folder, or in its place
 
   /// "run" saves as it goes, and takes up what is saved.
   [[nodiscard]] bool is_resumable() const;

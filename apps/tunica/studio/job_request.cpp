@@ -36,6 +36,14 @@ std::string new_folder(const std::string& stem, const char* kind) {
   return folder.generic_string();
 }
 
+fs::path result_inside(const std::string& name) {
+  const fs::path folder = inside(name);
+  std::error_code none;
+  if (!fs::is_regular_file(folder / "result.json", none) && !fs::is_regular_file(folder / "simulation.json", none))
+    throw InputError(fmt::format("{}: there are no results in the project under this name; load the page again", name));
+  return folder;
+}
+
 JobRecord resumed(const Session& session, const std::string& id) {
   for (JobRecord& job : job_records()) {
     if (job.id != id) continue;
@@ -66,10 +74,10 @@ JobRecord of_experiment(const Session& session, const std::string& verb, const n
 
 JobRecord of_report(const nlohmann::json& request) {
   JobRecord job{.verb = "report", .words = {"report"}};
-  for (const auto& folder : request.at("folders")) job.words.push_back(inside(folder).generic_string());
+  for (const auto& folder : request.at("folders")) job.words.push_back(result_inside(folder).generic_string());
   if (job.words.size() > 2) {
-    const fs::path file = free_name(inside("comparison.html"));
-    job.words.insert(job.words.end(), {"-o", file.generic_string()});
+    job.output = free_name(inside("comparison.html")).generic_string();
+    job.words.insert(job.words.end(), {"-o", job.output});
   }
   return job;
 }
@@ -87,14 +95,17 @@ JobRecord of_export(const nlohmann::json& request) {
   if (card == cards.end())
     throw InputError(fmt::format("no card is written for '{}'; choose febio, abaqus, ansys, calculix or lsdyna",
                                  text::excerpt(target)));
-  const fs::path folder = inside(request.at("folder").get<std::string>());
+  const fs::path folder = result_inside(request.at("folder").get<std::string>());
+  const auto run = request.value("run", std::string());
+  for (const std::string& word : {units, run})
+    if (word.starts_with('-'))
+      throw InputError(fmt::format("'{}' is no name of a run or of units; load the page again", text::excerpt(word)));
   if (execution::make_folders(inside("cards"))) throw InputError("cards: cannot be made; check the permissions");
-  const fs::path file =
-      free_name(inside(fmt::format("cards/{}-{}{}", folder.filename().string(), target, card->ending)));
   JobRecord job{.verb = "export"};
-  job.words = {"export", folder.generic_string(), "--to", target, "--units", units, "-o", file.generic_string()};
-  if (const auto run = request.value("run", std::string()); !run.empty())
-    job.words.insert(job.words.end(), {"--run", run});
+  job.output = free_name(inside(fmt::format("cards/{}-{}{}", folder.filename().string(), target, card->ending)))
+                   .generic_string();
+  job.words = {"export", folder.generic_string(), "--to", target, "--units", units, "-o", job.output};
+  if (!run.empty()) job.words.insert(job.words.end(), {"--run", run});
   return job;
 }
 

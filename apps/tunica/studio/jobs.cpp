@@ -16,6 +16,7 @@
 #include "exit_codes.hpp"
 #include "studio/job_request.hpp"
 #include "studio/progress_events.hpp"
+#include "studio/project_folder.hpp"
 #include "text/shell.hpp"
 #include "tunica/error.hpp"
 
@@ -149,6 +150,7 @@ json Jobs::entry(const JobRecord& job) const {
           {"verb", job.verb},
           {"command", text::quoted(words)},
           {"folder", job.folder},
+          {"output", job.output},
           {"experiment", job.experiment},
           {"started", job.started},
           {"ended", job.ended ? json(*job.ended) : json(nullptr)},
@@ -185,6 +187,7 @@ void Jobs::finish(const std::string& id, int status) {
   std::error_code not_empty;
   if (!job.folder.empty() && !fs::is_symlink(job.folder) && fs::is_empty(job.folder, not_empty))
     fs::remove(job.folder, not_empty);
+  give_back(job.output);
   write_record(job);
 }
 

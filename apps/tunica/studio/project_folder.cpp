@@ -2,10 +2,14 @@
 #include "studio/project_folder.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
+#include <mutex>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "execution/files.hpp"
 #include "studio/doorkeeper.hpp"
@@ -63,7 +67,9 @@ void collect(const fs::path& folder, int depth, const std::vector<JobRecord>& jo
   std::sort(entries.begin(), entries.end());
   for (const fs::path& entry : entries) {
     const std::string name = entry.generic_string();
-    if (entry.filename().native().front() == '.' || !text::is_plain(name) || fs::is_symlink(entry, none)) continue;
+    if (entry.filename().native().front() == '.' || name.front() == '-' || !text::is_plain(name) ||
+        fs::is_symlink(entry, none))
+      continue;
     if (fs::is_directory(entry, none)) {
       if (is_result(entry))
         found["results"].push_back(result_entry(entry, jobs));
@@ -74,6 +80,16 @@ void collect(const fs::path& folder, int depth, const std::vector<JobRecord>& jo
       if (is_data(entry)) found["data"].push_back(name);
     }
   }
+}
+
+std::mutex names_mutex;
+std::set<fs::path> names_given;  ///< by free_name(), and not given back
+
+/// A changed copy stays beside its original, also in a folder of results, where nobody looks for experiments.
+bool is_copy_of_result(const fs::path& copy) {
+  std::error_code none;
+  return text::is_plain(copy.native()) && copy.is_relative() && is_result(copy.parent_path()) &&
+         fs::is_regular_file(copy, none) && lies_inside(copy);
 }
 
 }  // namespace
@@ -87,6 +103,8 @@ fs::path own_place() {
 fs::path inside(const std::string& name) {
   if (name.empty() || !text::is_plain(name)) throw Refused("a name of a file is empty, or is no plain text");
   const fs::path path = name;
+  if (name.front() == '-')
+    throw Refused(fmt::format("'{}' begins with \"-\", as an option does; rename it", text::excerpt(name)));
   if (path.is_absolute()) throw Refused(fmt::format("'{}' is no name within the project", text::excerpt(name)));
   for (const fs::path& part : path)
     if (part.empty() || part.native().front() == '.')
@@ -124,10 +142,22 @@ std::string file_name(std::string_view wished) {
 }
 
 fs::path free_name(const fs::path& wished) {
+  const std::lock_guard lock(names_mutex);
   fs::path path = wished;
-  for (int n = 2; fs::exists(fs::symlink_status(path)); ++n)
+  for (int n = 2; names_given.contains(path) || fs::exists(fs::symlink_status(path)); ++n)
     path.replace_filename(fmt::format("{}-{}{}", wished.stem().string(), n, wished.extension().string()));
+  names_given.insert(path);
   return path;
+}
+
+void give_back(const fs::path& name) {
+  const std::lock_guard lock(names_mutex);
+  names_given.erase(name);
+}
+
+std::string passing_name() {
+  static std::atomic<unsigned long> count = 0;
+  return fmt::format(".passing-{}-{}.json", ::getpid(), ++count);
 }
 
 json contents() {
@@ -135,12 +165,14 @@ json contents() {
   std::size_t left = most_entries;
   collect({}, 0, job_records(), found, left);
   found["complete"] = left > 0;
-  found["copies"] = copies();
   auto& results = found["results"];
   std::stable_sort(results.begin(), results.end(),
                    [](const json& a, const json& b) { return a["written"] > b["written"]; });
   for (const json& result : results)
     for (const json& next : result["leads_to"]) found["experiments"].push_back(next["file"]);
+  found["copies"] = copies();
+  for (const auto& [copy, original] : found["copies"].items())
+    if (is_copy_of_result(copy)) found["experiments"].push_back(copy);
   return found;
 }
 

@@ -17,6 +17,7 @@ std::filesystem::path own_place();
 
 /// A name as the page says it, relative to the project, that may or may not exist yet. Throws Refused where it leaves
 /// the folder, by "..", by a symbolic link or by being absolute, and where a part of it is hidden or no plain text.
+/// Nor does a name begin with "-", which a command would take for an option.
 std::filesystem::path inside(const std::string& name);
 /// The same of a file that is there; throws InputError where it is not, or is no regular file.
 std::filesystem::path file_inside(const std::string& name);
@@ -26,8 +27,20 @@ void require_inside(const std::filesystem::path& file, const std::string& named_
 /// A name for a new file from what somebody calls it: the last part of a path, no leading dots, letters, digits and
 /// "._- " as they are, everything else as "-".
 std::string file_name(std::string_view wished);
-/// "strip.csv", or "strip-2.csv" where that is taken, and so on.
+/// "strip.csv", or "strip-2.csv" where that is taken, and so on. Nobody else in this process gets the name until it is
+/// given back, be the file there or not; one process serves a project.
 std::filesystem::path free_name(const std::filesystem::path& wished);
+void give_back(const std::filesystem::path& name);
+/// A free name for as long as this object lives.
+struct FreeName {
+  std::filesystem::path file;
+  explicit FreeName(const std::filesystem::path& wished) : file(free_name(wished)) {}
+  ~FreeName() { give_back(file); }
+  FreeName(const FreeName&) = delete;
+  FreeName& operator=(const FreeName&) = delete;
+};
+/// A hidden name that no other call has given, of a file that goes again.
+std::string passing_name();
 
 /// What there is: {"experiments": [name], "data": [name], "results": [{"folder", "kind", …}]}, newest results first,
 /// and "copies", see copies().

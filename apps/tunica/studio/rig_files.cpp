@@ -191,7 +191,7 @@ struct Passing {
 
 json look_at_rig_files(const nlohmann::json& asked, const plugins::Catalogue& catalogue) {
   Form form = form_of(asked);
-  const Passing trial{free_name("trial-of-import.json")};
+  const Passing trial{passing_name()};
   form.request.output = trial.file.string();
   json answer = {{"columns", columns_of(form)}, {"questions", json::array()}, {"signals", json::array()},
                  {"curves", json::array()},     {"provisional", false},       {"command", text::quoted(form.words)}};
@@ -223,7 +223,8 @@ json import_rig_files(const nlohmann::json& asked, const plugins::Catalogue& cat
                               : fs::path(file_name(asked["output"].get<std::string>()));
   fs::path output = inside(wished.generic_string());
   output.replace_extension(".json");
-  form.request.output = free_name(output).generic_string();
+  const FreeName name(output);
+  form.request.output = name.file.generic_string();
   std::vector<std::string> missing;
   const Imported imported = import_files(form.request, catalogue, [&](const importing::Question& question) {
     const auto given = form.asked.find(question.option);

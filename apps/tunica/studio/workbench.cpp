@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -80,9 +82,10 @@ json channel_json(const assembly::MeasuredChannel& channel) {
           {"curves", std::move(curves)}};
 }
 
-json run_json(const execution::PlannedRun& run) {
+json run_json(const execution::PlannedRun& run, const std::vector<experiment::RunEntry>& entries) {
   const auto& layout = run.assembly->layout();
-  json one = {{"label", run.label},
+  json one = {{"entry", run.entry - entries.data()},
+              {"label", run.label},
               {"model", run.entry->model},
               {"optimizer", run.entry->optimizer},
               {"max_evaluations", run.entry->stop.max_evaluations},
@@ -119,6 +122,9 @@ void refuse_programs(const experiment::Experiment& experiment) {
       throw InputError(fmt::format(
           "test '{}' starts a program or asks a server, which a slider does not; fit it instead", test.name));
 }
+
+/// Of the text of a file, to notice that somebody else has written it meanwhile.
+std::string hash_of(const std::string& text) { return fmt::format("{:016x}", std::hash<std::string>{}(text)); }
 
 void refuse_other_count(const std::vector<double>& values, const assembly::Assembly& assembly) {
   const std::size_t count = assembly.layout().parameters.size();
@@ -162,18 +168,20 @@ json Workbench::document(const std::string& name) {
   const experiment::JsonDocument document(file, execution::read_text(file));
   return {{"document", document.root()},
           {"text", document.text()},
+          {"hash", hash_of(document.text())},
           {"commented", json::parse(document.text(), nullptr, false).is_discarded()}};
 }
 
-json Workbench::save(const std::string& name, const json& document, bool as_new) {
+json Workbench::save(const std::string& name, const std::string& hash, const json& document, bool as_new) {
   const fs::path file = file_inside(name);
-  const bool of_others =
-      Workbench::document(name)["commented"].get<bool>() || fs::exists(file.parent_path() / "result.json");
-  fs::path target = file;
+  const std::lock_guard one_at_a_time(saving_);
+  const json present = Workbench::document(name);
+  const bool beside = as_new || present["commented"].get<bool>() || fs::exists(file.parent_path() / "result.json");
+  if (!beside && present["hash"] != hash)
+    throw Overtaken(fmt::format(
+        "{}: the file has changed since the page read it; load the page again, and make the change anew", name));
   // Relative names of data begin at the folder of the file, so that a copy stays there.
-  if (as_new || of_others) target = free_name(file);
-  const fs::path trial =
-      free_name(inside((file.parent_path() / ("trial-of-" + file.filename().string())).generic_string()));
+  const fs::path trial = file.parent_path() / passing_name();
   execution::write_atomically(trial, document.dump(2) + '\n');
   try {
     static_cast<void>(read_confined(session_, trial));
@@ -189,6 +197,9 @@ json Workbench::save(const std::string& name, const json& document, bool as_new)
     fs::remove(trial, none);
     throw;
   }
+  std::optional<FreeName> copy;
+  if (beside) copy.emplace(file);
+  const fs::path target = copy ? copy->file : file;
   fs::rename(trial, target);
   if (target != file) note_copy(target.generic_string(), file.generic_string());
   return {{"file", target.generic_string()}};
@@ -197,7 +208,7 @@ json Workbench::save(const std::string& name, const json& document, bool as_new)
 json Workbench::problem(const std::string& name) {
   const auto open = opened(name);
   json problem = {{"name", open->experiment.name}, {"seed", open->experiment.seed}, {"runs", json::array()}};
-  for (const auto& run : open->plan.runs) problem["runs"].push_back(run_json(run));
+  for (const auto& run : open->plan.runs) problem["runs"].push_back(run_json(run, open->experiment.runs));
   return problem;
 }
 

@@ -5,6 +5,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,6 +14,12 @@
 
 namespace tunica::app::studio {
 
+/// A file is no longer what the page has read.
+class Overtaken : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Experiments that the page has open, with what their runs predict: the core's own functions, called in this process.
 /// Tests that start a program or ask a server are not evaluated here. Thread-safe.
 class Workbench {
@@ -20,15 +27,18 @@ class Workbench {
   explicit Workbench(const Session& session);
   ~Workbench();
 
-  /// The document without its comments, and the file's state: {"document", "text", "commented"}. Throws InputError.
+  /// The document without its comments, and the file's state: {"document", "text", "hash", "commented"}. Throws
+  /// InputError.
   static nlohmann::ordered_json document(const std::string& file);
   /// Writes a document: over the file where that had no comments and is nobody's result, else beside it. What the
-  /// program cannot read is not written. Returns {"file"}. Throws InputError.
-  nlohmann::ordered_json save(const std::string& file, const nlohmann::ordered_json& document, bool as_new);
+  /// program cannot read is not written. Returns {"file"}. Throws InputError, and Overtaken where the file to be
+  /// written over has another hash than document() gave.
+  nlohmann::ordered_json save(const std::string& file, const std::string& hash, const nlohmann::ordered_json& document,
+                              bool as_new);
 
-  /// {"name", "runs": [{"label", "model", "optimizer", "parameters": [{name, unit, min, max, initial, scale}], "fixed",
-  /// "channels": [{test, observable, unit, over, over_unit, x, y, held_out, curves, rows}]}]}. Channels have at most
-  /// 1500 rows, evenly chosen. Throws InputError.
+  /// {"name", "runs": [{"entry": number within "runs" of the file, "label", "model", "optimizer", "parameters": [{name,
+  /// unit, min, max, initial, scale}], "fixed", "channels": [{test, observable, unit, over, over_unit, x, y, held_out,
+  /// curves, rows}]}]}. Channels have at most 1500 rows, evenly chosen. Throws InputError.
   nlohmann::ordered_json problem(const std::string& file);
   /// What a run predicts at values of its free parameters, in base units, at the rows that problem() gives:
   /// {"channels":
@@ -46,7 +56,7 @@ class Workbench {
   std::shared_ptr<const Open> opened(const std::string& file);
 
   const Session& session_;
-  std::mutex mutex_;
+  std::mutex saving_, mutex_;                    ///< one save at a time; what is below
   std::list<std::shared_ptr<const Open>> open_;  ///< the last used first
 };
 

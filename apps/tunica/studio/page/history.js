@@ -50,7 +50,7 @@ export async function historyPage(place, all) {
   const compare = el("button", { onclick: () => attempt(below, async () => {
     const folders = [...boxes].filter(([, box]) => box.checked).map(([folder]) => folder);
     if (folders.length < 2) throw new Error("tick two results or more to compare them");
-    const job = await ask("start", { verb: "report", folders }), file = job.command.match(/-o ('[^']*'|\S+)$/)[1].replaceAll("'", "");
+    const job = await ask("start", { verb: "report", folders }), file = job.output;
     watchJob(below, job, (last) => last.state === "done" && below.prepend(el("p", {}, el("a", { class: "button", href: view(file), target: "_blank", rel: "noopener" }, `Open ${file}`))));
   }) }, "Compare those that are ticked");
   add(place, el("h1", {}, "History"), rows.length ? panel("What was tried", el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Tree of experiments and results" }, el("table", {}, el("thead", {}, el("tr", {},

@@ -23,6 +23,9 @@ async function reach(path, options) {
 export const ask = async (what, question = {}) =>
   answer(await reach(`/api/${what}`, { method: "POST", body: JSON.stringify(question) }));
 
+/** Writes a change of what `document` has answered; refused where the file is another one meanwhile. */
+export const save = (file, read, document, as_new = false) => ask("save", { file, hash: read.hash, document, as_new });
+
 export const upload = async (file) =>
   answer(await reach(`/api/upload?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file }));
 
