@@ -4,7 +4,7 @@ import { chart } from "./chart.js";
 import { attempt, check, el, panel, problem, put, unseen } from "./dom.js";
 import { setRuns } from "./edits.js";
 import { newest, reportLink, watchJob } from "./jobs.js";
-import { ask, project, result, view } from "./server.js";
+import { ask, project, result, save, view } from "./server.js";
 import { axis, number, percent, plain, unit } from "./words.js";
 
 const known = { lm: ["Levenberg–Marquardt, 20 starts", { type: "ceres_lm", starts: 20 }], es: ["Evolution strategy", { type: "es" }] };
@@ -34,7 +34,7 @@ function card(folder, place) {
   return el("div", {}, el("div", { class: "row" }, el("label", { for: target.id }, "Card for "), target, el("label", { for: units.id }, "in "), units,
     el("button", { onclick: () => attempt(said, async () => {
       const job = await ask("start", { verb: "export", folder, to: target.value, units: units.value });
-      const file = job.command.match(/-o ('[^']*'|\S+)/)[1].replaceAll("'", "");
+      const file = job.output;
       watchJob(said, job, (last) => last.state === "done" && said.prepend(el("p", {}, el("a", { class: "button", href: view(file), download: file.split("/").pop() }, `Save ${file}`))));
     }) }, "Write the card")), said);
 }
@@ -59,8 +59,8 @@ export async function outcome(folder, name) {
 }
 
 export async function fitPage(place, all, name) {
-  const { document } = await ask("document", { file: name });
-  const model = document.runs?.[0]?.model ?? Object.keys(document.models)[0], live = el("div"), out = el("div"), said = el("div");
+  const read = await ask("document", { file: name }), { document } = read;
+  const live = el("div"), out = el("div"), said = el("div");
   let leave = null;
   const asFile = el("input", { type: "radio", name: "what", id: "as-file", checked: true }), these = el("input", { type: "radio", name: "what", id: "these" });
   const boxes = Object.entries(known).map(([key, [title]]) => [key, check(title, true, { "data-optimizer": key, onchange: () => (these.checked = true) })]);
@@ -81,8 +81,8 @@ export async function fitPage(place, all, name) {
     if (these.checked) {
       const changed = structuredClone(document), chosen = boxes.filter(([, box]) => box.querySelector("input").checked).map(([key]) => [key, known[key][1]]);
       if (!chosen.length) throw new Error("no optimiser is chosen; tick one");
-      setRuns(changed, model, chosen, Number(budget.value));
-      ({ file } = await ask("save", { file: name, document: changed }));
+      setRuns(changed, chosen, Number(budget.value));
+      ({ file } = await save(name, read, changed));
     }
     const job = await ask("start", { verb: "run", experiment: file });
     out.replaceChildren();
@@ -92,7 +92,7 @@ export async function fitPage(place, all, name) {
   const labels = (document.runs ?? []).map((run) => `${run.model ?? "layers"}/${run.optimizer}`).join(", ");
   place.append(el("h1", {}, name), panel("Fit", el("fieldset", {}, el("legend", {}, "Which searches"),
     el("div", {}, asFile, el("label", { for: asFile.id }, `as the file says: ${labels || "none"}`)),
-    el("div", {}, these, el("label", { for: these.id }, "these, at equal budget, starting side by side")), el("div", { class: "row" }, boxes.map(([, box]) => box), el("label", {}, "at most ", budget, " evaluations each"))),
+    el("div", {}, these, el("label", { for: these.id }, "these too, added to the runs of the file, at equal budget")), el("div", { class: "row" }, boxes.map(([, box]) => box), el("label", {}, "at most ", budget, " evaluations each"))),
     el("div", { class: "row" }, go), said), live, out);
   const last = newest(all, "run", name);
   if (last) watch(last);

@@ -3,7 +3,7 @@
 import { chart } from "./chart.js";
 import { add, attempt, check, choice, el, field, notice, panel, problem, put, shell } from "./dom.js";
 import { setModel, setParameters, setTests } from "./edits.js";
-import { ask } from "./server.js";
+import { ask, save } from "./server.js";
 import { latest, rested, sliders } from "./sliders.js";
 import { axis, number, percent, plain, quoted, unit } from "./words.js";
 
@@ -20,21 +20,23 @@ function pictures(run) {
       { name: "model", x: channel.x, y: channel.x.map(() => null), colour: 0, breaks: breaks(channel.curves), free: true }] }));
 }
 
-function modelPanel(name, run, document, catalogue, open) {
-  const models = catalogue.models, type = document.models[run.model]?.type, about = models.find((one) => one.name === type);
+function modelPanel(name, run, file, catalogue, open) {
+  const { document } = file, models = catalogue.models, type = document.models[run.model]?.type, about = models.find((one) => one.name === type);
   const list = choice(models.map((one) => [one.name, plain(one.name)]), type), place = panel("Model");
   const required = about?.options?.length ? ` · options: ${about.options.map((one) => one.name).join(", ")}` : "";
   list.addEventListener("change", () => attempt(place, async () => {
     const changed = structuredClone(document);
-    setModel(changed, run.model, list.value, list.value === "ogden" ? { terms: 2 } : {});
-    open(await ask("save", { file: name, document: changed }));
+    setModel(changed, run.entry, list.value, list.value === "ogden" ? { terms: 2 } : {});
+    open(await save(name, file, changed));
   }));
   add(place, field("Constitutive model", list), about ? el("p", {}, about.doc) : "", about ? el("p", {}, el("small", {}, about.reference, required)) : "");
   return place;
 }
 
-function testsPanel(name, run, document, open) {
-  const all = Object.keys(document.tests), used = new Set(run.tests), place = panel("Tests");
+function testsPanel(name, run, file, open) {
+  const { document } = file, own = document.runs[run.entry].tests, place = panel("Tests");
+  if (own && !Array.isArray(own)) return add(place, el("p", {}, "This run has tests of its own, which are changed in the file: ", Object.keys(own).map(plain).join(", ")));
+  const all = Object.keys(document.tests), used = new Set(own ?? all);
   const rows = all.map((test) => {
     const on = check("fit", used.has(test)), out = check("hold out", document.tests[test].hold_out === true);
     const plainWeight = typeof (document.tests[test].weight ?? 1) === "number";
@@ -43,9 +45,9 @@ function testsPanel(name, run, document, open) {
   });
   place.append(el("ul", { class: "plain" }, rows.map((row) => row.node)), el("button", { onclick: () => attempt(place, async () => {
     const changed = structuredClone(document);
-    setTests(changed, rows.filter((row) => row.on.checked).map((row) => row.test), new Set(rows.filter((row) => row.out.checked).map((row) => row.test)),
+    setTests(changed, run.entry, rows.filter((row) => row.on.checked).map((row) => row.test), new Set(rows.filter((row) => row.out.checked).map((row) => row.test)),
       new Map(rows.filter((row) => row.weight.value !== "" && Number(row.weight.value) !== (document.tests[row.test].weight ?? 1)).map((row) => [row.test, Number(row.weight.value)])));
-    open(await ask("save", { file: name, document: changed }));
+    open(await save(name, file, changed));
   }) }, "Use these tests"));
   return place;
 }
@@ -123,16 +125,17 @@ export async function materialPage(place, all, name) {
     moved(knobs.values);
     const keep = el("button", { onclick: () => attempt(saving, async () => {
       const changed = structuredClone(file.document);
-      setParameters(changed, run.model, run.parameters, knobs.values);
-      open(await ask("save", { file: name, document: changed }));
+      setParameters(changed, run.entry, run.parameters, knobs.values);
+      open(await save(name, file, changed));
     }) }, "Keep as initial values and bounds");
     put(body, el("div", { class: "wide" },
-      el("div", { class: "sticky" }, modelPanel(name, run, file.document, catalogue, open),
+      el("div", { class: "sticky" }, modelPanel(name, run, file, catalogue, open),
         panel("Parameters", fromResults(all, name, run, knobs), knobs.node, el("div", { class: "row" }, keep), saving,
           run.fixed.length ? el("p", {}, el("small", {}, "Held: ", run.fixed.map((one) => `${one.name} = ${number(one.value)}${unit(one.unit)}`).join(", "))) : "",
+          el("p", {}, el("small", {}, "A shell simulates at the values that the file holds; keep those of the sliders first.")),
           shell(`tunica simulate ${quoted(name)} --model ${quoted(run.model)} -o predicted`))),
       el("div", {}, panel("Curve over the data", charts.map((one) => one.node), quality, stable, failed, el("div", { class: "row" }, el("a", { class: "button", href: to("fit", name) }, "Next: fit"))),
-        testsPanel(name, { tests: (file.document.runs ?? []).find((one) => one.model === run.model)?.tests ?? Object.keys(file.document.tests) }, file.document, open), checks, text(file))));
+        testsPanel(name, run, file, open), checks, text(file))));
   }
   show(run);
   return () => (gone = true);
