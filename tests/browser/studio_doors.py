@@ -21,8 +21,8 @@ def only_with_the_token(studio):
     assert studio.request("GET", "/?token=" + "0" * 32, headers=headers)[0] == 403
     for cookie in ("", "tunica_studio=" + studio.token, studio.cookie[:-1], studio.cookie + "0", f"x{studio.cookie}"):
         assert studio.request("GET", "/", headers={**headers, "Cookie": cookie})[0] == 403, cookie
-    status, found, _ = studio.request("GET", f"/?token={studio.token}", headers=headers)
-    assert status == 303 and found["Location"] == "/", found
+    status, found, leads = studio.request("GET", f"/?token={studio.token}", headers=headers)
+    assert status == 200 and b'content="0;url=/"' in leads and found["Referrer-Policy"] == "no-referrer", (found, leads)
     assert "HttpOnly" in found["Set-Cookie"] and "SameSite=Strict" in found["Set-Cookie"], found
     status, found, page = studio.get("/")
     assert status == 200 and b"tunica" in page
@@ -164,6 +164,30 @@ def one_server_a_project(tunica, studio):
     assert found.returncode == 2 and "another `tunica studio`" in found.stderr, found.stderr
 
 
+def the_browser_is_led_by_a_file_of_its_owner(tunica, folder):
+    """A program in the place of xdg-open says what it was given, and in which session it is."""
+    folder.mkdir()
+    program, said = folder / "xdg-open", folder / "said.txt"
+    program.write_text(f'#!/bin/sh\nprintf "%s\\n%s\\n" "$*" "$(cut -d" " -f6 /proc/$$/stat)" > {said}.new && mv {said}.new {said}\nexec sleep 60\n')
+    program.chmod(0o755)
+    process = subprocess.Popen([tunica, "studio", str(folder)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                               env={**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"})
+    try:
+        address = process.stdout.readline().strip()
+        for _ in range(100):
+            if said.exists():
+                break
+            time.sleep(0.05)
+        given, session = said.read_text().splitlines()
+        assert "token" not in given and given.endswith(".tunica-studio/open.html"), given
+        assert pathlib.Path(given).stat().st_mode & 0o777 == 0o600 and address in pathlib.Path(given).read_text()
+        assert int(session) != os.getsid(0), "Ctrl-C of the terminal reaches the browser"
+    finally:
+        process.terminate()
+        assert process.wait(timeout=20) == 0
+    os.kill(int(session), signal.SIGTERM)  # it outlived the studio
+
+
 def is_alive(words, folder):
     """Whether a process of this command line works in the folder."""
     for process in pathlib.Path("/proc").glob("[0-9]*"):
@@ -233,6 +257,7 @@ def main():
     for folder in (outside, project, slow):
         folder.mkdir(parents=True)
     (outside / "secret.csv").write_text("stretch,stress\n1,0\n1.1,1\n1.2,3\nsecret\n")
+    the_browser_is_led_by_a_file_of_its_owner(options.tunica, options.output.resolve() / "opened")
     with Studio(options.tunica, project) as studio:
         only_with_the_token(studio)
         only_from_its_own_page(studio)

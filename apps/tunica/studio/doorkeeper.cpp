@@ -72,11 +72,15 @@ std::string Doorkeeper::address() const {
 }
 
 bool Doorkeeper::is_here(const std::string& authority) const {
-  return authority == "127.0.0.1:" + port_ || authority == "localhost:" + port_;
+  const std::string end = ":" + port_;
+  if (authority == "127.0.0.1" + end || authority == "localhost" + end) return true;
+  return port_ == "80" && (authority == "127.0.0.1" || authority == "localhost");  // browsers leave that one out
 }
 
 std::string Doorkeeper::problem_with(const WebRequest& request) const {
-  if (!is_here(request.host)) return "the header Host names another machine than this one";
+  if (!is_here(request.host))
+    return "the header Host names another machine or port than this one; through ssh take one port on both sides, with "
+           "`--port N` and `ssh -L N:127.0.0.1:N`";
   if (request.method != "GET" && request.method != "HEAD" && request.method != "POST")
     return "the page asks with GET and POST only";
   if (request.path.starts_with(view().substr(0, 6)))
@@ -95,11 +99,14 @@ std::optional<WebReply> Doorkeeper::stopped(const WebRequest& request) const {
   if (request.method == "GET" && request.path == "/" && is_here(request.host) &&
       is_same(request.token, tokens_.substr(0, length)))
     return WebReply{
-        303,
-        "text/plain",
-        "",
-        {{"Location", "/"},
-         {"Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict", cookie_name(), request.token)}}};
+        200,
+        "text/html; charset=utf-8",
+        "<!doctype html><title>tunica studio</title><meta http-equiv=\"refresh\" content=\"0;url=/\">",
+        {{"Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict", cookie_name(), request.token)},
+         {"Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'"},
+         {"X-Content-Type-Options", "nosniff"},
+         {"Referrer-Policy", "no-referrer"},
+         {"Cache-Control", "no-store"}}};
   const std::string why = problem_with(request);
   if (why.empty()) return std::nullopt;
   return refusal(request, 403, why + "; open the address that `tunica studio` has printed");

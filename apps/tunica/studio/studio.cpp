@@ -2,11 +2,13 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/file.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "answer.hpp"
@@ -57,17 +59,38 @@ void hold_project() {
     throw InputError("another `tunica studio` serves this folder; open the address that it has printed, or end it");
 }
 
-/// Of the desktop; where there is none, the address is printed anyway.
-void open_browser(std::string address) {
-  std::string program = "xdg-open";
-  char* words[] = {program.data(), address.data(), nullptr};
+/// A page that leads to the address, for its owner only: command lines are read by everybody on the machine.
+std::string way_to(const std::string& address) {
+  const fs::path file = studio::own_place() / "open.html";
+  std::error_code none;
+  fs::remove(file, none);
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+  const std::string page = fmt::format(
+      "<!doctype html><title>tunica studio</title><meta http-equiv=\"refresh\" content=\"0;url={}\">", address);
+  if (descriptor < 0) return {};
+  const bool whole = ::write(descriptor, page.data(), page.size()) == static_cast<ssize_t>(page.size());
+  ::close(descriptor);
+  return whole ? fs::absolute(file).string() : std::string();
+}
+
+/// Of the desktop; where there is none, the address is printed anyway. It has a session of its own, which Ctrl-C of the
+/// terminal does not reach.
+void open_browser(const std::string& address) {
+  std::string program = "xdg-open", file = way_to(address);
+  if (file.empty()) return;
+  char* words[] = {program.data(), file.data(), nullptr};
+  posix_spawnattr_t apart;
+  ::posix_spawnattr_init(&apart);
+  ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETSID);
   posix_spawn_file_actions_t silent;
   ::posix_spawn_file_actions_init(&silent);
   for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO})
     ::posix_spawn_file_actions_addopen(&silent, descriptor, "/dev/null", O_WRONLY, 0);
   pid_t process = -1;
-  ::posix_spawnp(&process, program.c_str(), &silent, nullptr, words, environ);
+  const bool begun = ::posix_spawnp(&process, program.c_str(), &silent, &apart, words, environ) == 0;
   ::posix_spawn_file_actions_destroy(&silent);
+  ::posix_spawnattr_destroy(&apart);
+  if (begun) std::thread([process] { ::waitpid(process, nullptr, 0); }).detach();
 }
 
 int serve_page(const GlobalOptions& asked, const StudioOptions& options) {
