@@ -94,6 +94,7 @@ WebReply Desk::shown(const std::string& name) const {
 json Desk::project() {
   json all = contents();
   all["folder"] = std::filesystem::current_path().filename().string();
+  all["path"] = std::filesystem::current_path().string();
   all["version"] = comparison::version();
   all["view"] = door_.view();
   all["examples"] = examples();

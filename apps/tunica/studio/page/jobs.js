@@ -47,7 +47,15 @@ export function watchJob(place, job, ended) {
   const all = el("details", { open: true }, el("summary", {}, "What the program says"), words);
   place.replaceChildren(el("div", { class: "row" }, el("strong", {}, job.verb), state, count, stop), bar, el("div", { class: "live-two" }, live.node, best), all, shell(job.command));
   const leave = follow(job.id, {
-    begin: () => live.reset(),
+    begin() {
+      live.reset();
+      state.textContent = states.running;
+      state.classList.remove("bad");
+    },
+    lost() {
+      state.textContent = "the server does not answer; where it was ended, start `tunica studio` again";
+      state.classList.add("bad");
+    },
     progress(news) {
       if (news.rows) live.add(news.rows);
       if (news.count) count.textContent = `${news.count.toLocaleString()} evaluations`;
@@ -63,6 +71,7 @@ export function watchJob(place, job, ended) {
       all.open = last.state !== "done";
       stop.remove();
       state.textContent = states[last.state];
+      state.classList.remove("bad");
       state.classList.add(last.state === "done" ? "good" : "bad");
       words.textContent = last.words;
       if (last.resumable) place.append(resume(place, last, ended));

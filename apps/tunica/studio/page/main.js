@@ -6,7 +6,7 @@ import { el, problem } from "./dom.js";
 import { fitPage } from "./fit.js";
 import { historyPage } from "./history.js";
 import { materialPage } from "./material.js";
-import { project } from "./server.js";
+import { project, unfollow } from "./server.js";
 import { startPage } from "./start.js";
 
 const pages = { "": startPage, data: dataPage, work: materialPage, fit: fitPage, causes: causesPage, history: historyPage };
@@ -26,6 +26,7 @@ async function show() {
   const mine = ++turn;
   leave?.();
   leave = null;
+  unfollow();
   const [, kind = "", coded = ""] = location.hash.match(/^#\/(\w*)\/?(.*)$/) ?? [];
   const name = decodeURIComponent(coded), place = document.getElementById("content");
   const shown = el("div");

@@ -43,14 +43,25 @@ export async function result(folder) {
   return answer(await reach(view(`${folder}/result.json`)));
 }
 
-/** Listens to a job until its end. Returns a function that stops listening. */
-export function follow(id, { begin, progress, end }) {
+const followed = new Set();
+
+/** Listens to a job until its end; `lost()` where the server does not answer. Returns a function that stops listening. */
+export function follow(id, { begin, progress, end, lost }) {
   const source = new EventSource(`/api/events?name=${encodeURIComponent(id)}`);
+  followed.add(source);
   source.addEventListener("begin", () => begin?.());
+  source.addEventListener("error", () => lost?.());
   source.addEventListener("progress", (event) => progress?.(JSON.parse(event.data)));
+  const leave = () => { source.close(); followed.delete(source); };
   source.addEventListener("end", (event) => {
-    source.close();
+    leave();
     end?.(JSON.parse(event.data));
   });
-  return () => source.close();
+  return leave;
+}
+
+/** Stops listening to every job, whoever follows it: another page is shown. */
+export function unfollow() {
+  followed.forEach((source) => source.close());
+  followed.clear();
 }

@@ -3,7 +3,7 @@
 import { add, attempt, el, notice, panel, shell } from "./dom.js";
 import { jobLine } from "./jobs.js";
 import { ask, upload } from "./server.js";
-import { percent, when } from "./words.js";
+import { percent, quoted, when } from "./words.js";
 
 const to = (kind, name) => `#/${kind}/${encodeURIComponent(name)}`;
 
@@ -51,5 +51,5 @@ export async function startPage(place, all) {
         panel("Results", list(all.results.slice(0, 12).map(resultLine), "None yet."))),
       examples),
     all.complete ? "" : el("p", { class: "box bad" }, "The folder has more files than are listed here."),
-    shell(`cd ${all.folder} && tunica studio`));
+    shell(`tunica studio ${quoted(all.path)}`));
 }
