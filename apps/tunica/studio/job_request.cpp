@@ -40,7 +40,7 @@ fs::path result_inside(const std::string& name) {
   const fs::path folder = inside(name);
   std::error_code none;
   if (!fs::is_regular_file(folder / "result.json", none) && !fs::is_regular_file(folder / "simulation.json", none))
-    throw InputError(fmt::format("{}: there are no results in the project under this name; load the page again", name));
+    throw InputError(fmt::format("{}: there are no results in this folder; choose another one", name));
   return folder;
 }
 
@@ -99,7 +99,7 @@ JobRecord of_export(const nlohmann::json& request) {
   const auto run = request.value("run", std::string());
   for (const std::string& word : {units, run})
     if (word.starts_with('-'))
-      throw InputError(fmt::format("'{}' is no name of a run or of units; load the page again", text::excerpt(word)));
+      throw InputError(fmt::format("'{}' is no name of a run or of units; choose another one", text::excerpt(word)));
   if (execution::make_folders(inside("cards"))) throw InputError("cards: cannot be made; check the permissions");
   JobRecord job{.verb = "export"};
   job.output = free_name(inside(fmt::format("cards/{}-{}{}", folder.filename().string(), target, card->ending)))
