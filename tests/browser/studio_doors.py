@@ -133,6 +133,20 @@ def what_changes_in_the_folder_is_read_again(studio):
     assert studio.ask("save", file=file, hash=studio.ask("document", file=file)["hash"], document=read["document"])["file"] == file
 
 
+def a_changed_copy_within_results_is_listed(studio):
+    folder = studio.folder / "results/made"
+    folder.mkdir(parents=True)
+    (folder / "result.json").write_text("{}")
+    experiment = json.loads((studio.folder / "names_others.json").read_text())
+    experiment["tests"]["strip"]["data"]["file"] = "../../own.csv"
+    (folder / "extended.json").write_text(json.dumps(experiment))
+    read = studio.ask("document", file="results/made/extended.json")
+    copy = studio.ask("save", file="results/made/extended.json", hash=read["hash"], document=read["document"])["file"]
+    listed = studio.ask("project")
+    assert copy == "results/made/extended-2.json" and copy in listed["experiments"], listed["experiments"]
+    assert listed["copies"][copy] == "results/made/extended.json", listed["copies"]
+
+
 def every_example_opens_and_follows_its_sliders(studio):
     examples = studio.ask("project")["examples"]
     assert len(examples) == 10, examples
@@ -267,6 +281,7 @@ def main():
         uploads_have_limits_and_plain_names(studio)
         errors_carry_the_words_of_the_core(studio)
         what_changes_in_the_folder_is_read_again(studio)
+        a_changed_copy_within_results_is_listed(studio)
         every_example_opens_and_follows_its_sliders(studio)
         a_diagnosis_is_a_job_with_its_words(options, studio)
         one_server_a_project(options.tunica, studio)

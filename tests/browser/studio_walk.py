@@ -106,6 +106,34 @@ def compare_and_take_away(page, folder, host):
     assert page.browser.run("return window.origin") == "null", "a report is shown with the origin of the page"
 
 
+def edits_change_only_what_is_shown(page):
+    """The page's own functions on a file of two runs, one of which is not shown."""
+    page.browser.run("""import("/page/edits.js").then((edits) => {
+      const file = () => ({ models: { a: { type: "neo_hooke", mechanisms: [{ type: "viscoelasticity" }] }, b: { type: "ogden", terms: 2 } },
+        tests: { one: {}, two: { mechanisms: [{ type: "force_offset" }] } }, optimizers: { lm: { type: "ceres_lm", starts: 3 } },
+        runs: [{ model: "a", optimizer: "lm" }, { model: "b", optimizer: "lm", tests: ["two"] }], stop: { max_evaluations: 9 } });
+      const made = (change) => { const one = file(); change(one); return one; };
+      let failed = "";
+      try { edits.setParameters(file(), 0, [{ name: "none.x", initial: 1 }], [2]); } catch (error) { failed = error.message; }
+      window.edited = { before: file(), failed, model: made((one) => edits.setModel(one, 0, "yeoh", {})), known: made((one) => edits.setModel(one, 0, "ogden", {})),
+        runs: made((one) => edits.setRuns(one, [["lm", { type: "ceres_lm", starts: 20 }]], 50)), tests: made((one) => edits.setTests(one, 0, ["one"], new Set(), new Map())),
+        values: made((one) => edits.setParameters(one, 0, [{ name: "mu", initial: 1 }, { name: "viscoelasticity.tau", initial: 1 }, { name: "two.force_offset.value", initial: 1 }], [2, 3, 4])) };
+    })""")
+    page.until("return window.edited")
+    found = page.browser.run("return window.edited")
+    before, (first, second) = found["before"], found["before"]["runs"]
+    assert found["model"]["models"] == {**before["models"], "yeoh": {"type": "yeoh", "mechanisms": [{"type": "viscoelasticity"}]}}, found["model"]
+    assert found["model"]["runs"] == [{**first, "model": "yeoh"}, second], found["model"]
+    assert found["known"] == {**before, "runs": [{**first, "model": "b"}, second]}, found["known"]
+    assert found["runs"]["runs"] == [first, second, {**first, "optimizer": "lm_2", "stop": {"max_evaluations": 50}}], found["runs"]
+    assert found["runs"]["optimizers"]["lm"] == before["optimizers"]["lm"] and found["runs"]["stop"] == before["stop"], found["runs"]
+    assert found["tests"]["runs"] == [{**first, "tests": ["one"]}, second], found["tests"]
+    values = found["values"]
+    assert values["models"]["a"]["parameters"]["mu"] == {"initial": 2} and values["models"]["b"] == before["models"]["b"], values
+    assert values["models"]["a"]["mechanisms"][0]["parameters"]["tau"] == {"initial": 3}, values
+    assert values["tests"]["two"]["mechanisms"][0]["parameters"]["value"] == {"initial": 4} and "none.x" in found["failed"], found
+
+
 def nothing_acts(page, folder, studio):
     (folder / f"{MARKUP}.csv").write_text(f"{MARKUP} [N];displacement [mm]\n" + "".join(f"{k};{k}\n" for k in range(9)))
     (folder / f"{MARKUP}.json").write_text('{"format": 1, "models": {}, "tests": {}}')
@@ -206,6 +234,7 @@ def main():
             page.see("What came out")
             every_page_narrow_and_dark(page)
             page.check_quiet(studio.host)
+            edits_change_only_what_is_shown(page)
             mistaken_experiment(options.source, folder)
             mistake_taken_back(page, folder)
             nothing_acts(page, folder, studio)
