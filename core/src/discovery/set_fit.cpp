@@ -233,10 +233,15 @@ std::vector<double> Fitter::start_of(const SetFit& from, const BoundSet& set) co
 bool Fitter::has_support(const SetFit& fit) const {
   constexpr double visible = 0.25, of_rows = 0.1;  // σ; of all rows
   const Eigen::MatrixXd& J = fit.fit.jacobian;
+  const auto& channels = fit.set->assembly().layout().channels;
+  const bool is_whole = subject_.from_nothing && fit.set->terms().size() == 1 &&
+                        std::any_of(channels.begin(), channels.end(), [](const auto& one) { return one.is_field(); });
   for (const BoundTerm& term : fit.set->terms()) {
     Eigen::VectorXd effect = J.col(static_cast<Eigen::Index>(term.amplitude)) * fit.fit.free[term.amplitude];
     for (const std::size_t height : term.heights)
       effect += J.col(static_cast<Eigen::Index>(height)) * fit.fit.free[height];
+    // The only term scales the forces of a field, and no displacement shows it.
+    if (is_whole && effect.norm() > idle) continue;
     const auto rows = (effect.array().abs() > visible).count();
     if (!(effect.norm() > idle) || static_cast<double>(rows) < of_rows * static_cast<double>(effect.size()))
       return false;
