@@ -62,7 +62,7 @@ def fit(page):
 
 
 def sliders_at_the_fit(page):
-    page.go("work", "strip.json")
+    page.go("model", "strip.json")
     page.set("[data-from]", "0")
     page.until("return Math.abs(Number(document.querySelector('input.number').value) - 328.47) < 0.1")
     page.see("objective 0.65122")  # that of the run
@@ -162,7 +162,7 @@ def mistake_taken_back(page, folder):
     assert '"cauchy"' in (folder / "mistaken.json").read_text() and '"cauchy"' not in (folder / "mistaken-2.json").read_text()
 
 
-def every_page_narrow_and_dark(page, examples=("fit", "causes", "work")):
+def every_page_narrow_and_dark(page, examples=("fit", "causes", "model")):
     page.browser.look(400, "dark")
     assert page.browser.run("return getComputedStyle(document.body).backgroundColor") == "rgb(22, 25, 29)"
     for kind, name in (("", ""), ("history", ""), ("data", "strip.txt"), *((kind, "strip.json") for kind in examples)):

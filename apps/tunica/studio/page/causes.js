@@ -46,7 +46,7 @@ function accept(folder, entry, place) {
     location.hash = `#/${page}/${encodeURIComponent(file)}`;
   });
   return el("div", { class: "row" }, el("button", { class: "main", onclick: () => (mended ? start("diagnose", "causes") : start("run", "fit")) },
-    mended ? "Take the file as mended, and diagnose again" : "Accept: fit the extended model"), el("a", { href: `#/work/${encodeURIComponent(file)}` }, file));
+    mended ? "Take the file as mended, and diagnose again" : "Accept: fit the extended model"), el("a", { href: `#/model/${encodeURIComponent(file)}` }, file));
 }
 
 async function found(folder, entry, name) {

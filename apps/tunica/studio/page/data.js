@@ -106,7 +106,7 @@ export async function dataPage(place, all, name) {
   const output = el("input", { type: "text", placeholder: files[0].replace(/\.[^.]*$/, ".json"), oninput: soon });
   const write = el("button", { class: "main", onclick: () => attempt(failed, async () => {
     const { file } = await ask("import", request());
-    location.hash = `#/work/${encodeURIComponent(file)}`;
+    location.hash = `#/model/${encodeURIComponent(file)}`;
   }) }, "Write the experiment");
   const kinds = (what) => [["", "as the columns suggest"], ...catalogue[what].map((one) => [one.name, plain(one.name)])];
 

@@ -37,7 +37,7 @@ export async function historyPage(place, all) {
   const line = (row) => {
     const name = el("td", { class: `depth${Math.min(row.depth, 3)}` });
     if (row.kind === "experiment") {
-      name.append(el("a", { href: `#/work/${encodeURIComponent(row.name)}` }, el("strong", {}, row.name)));
+      name.append(el("a", { href: `#/model/${encodeURIComponent(row.name)}` }, el("strong", {}, row.name)));
       return el("tr", {}, el("td"), name, el("td"), el("td"), el("td"), el("td"));
     }
     const [rms, text] = words(row.entry), box = el("input", { type: "checkbox", "aria-label": `Compare ${row.name}`, disabled: row.entry.kind === "unfinished" });

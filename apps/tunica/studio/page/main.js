@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One page a hash: #/, #/history, #/data/FILE, #/work/EXPERIMENT, #/fit/…, #/causes/….
+// One page a hash: #/, #/history, #/data/FILE, #/model/EXPERIMENT, #/fit/…, #/causes/….
 import { causesPage } from "./causes.js";
 import { dataPage } from "./data.js";
 import { el, problem } from "./dom.js";
@@ -9,8 +9,8 @@ import { materialPage } from "./material.js";
 import { project, unfollow } from "./server.js";
 import { startPage } from "./start.js";
 
-const pages = { "": startPage, data: dataPage, work: materialPage, fit: fitPage, causes: causesPage, history: historyPage };
-const steps = [["work", "Material"], ["fit", "Fit"], ["causes", "What is wrong"]];
+const pages = { "": startPage, data: dataPage, model: materialPage, fit: fitPage, causes: causesPage, history: historyPage };
+const steps = [["model", "Material"], ["fit", "Fit"], ["causes", "What is wrong"]];
 let leave = null;
 
 function stepsOf(kind, name) {

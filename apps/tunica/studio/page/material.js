@@ -84,7 +84,7 @@ export async function materialPage(place, all, name) {
   const open = ({ file: saved }) => {
     gone = true;
     if (saved !== name) notice(`${name} stays as it is; the change is in ${saved}`);
-    if (saved === name) dispatchEvent(new HashChangeEvent("hashchange")); else location.hash = to("work", saved);
+    if (saved === name) dispatchEvent(new HashChangeEvent("hashchange")); else location.hash = to("model", saved);
   };
   const below = el("div");
   place.append(el("h1", {}, name), below);

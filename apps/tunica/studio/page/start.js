@@ -39,13 +39,13 @@ export async function startPage(place, all) {
   const examples = panel("Worked examples");
   add(examples, list(all.examples.map((one) => el("li", {}, el("button", { class: "link", onclick: () => attempt(examples, async () => {
     const { file } = await ask("example", { name: one.name });
-    location.hash = to("work", file);
+    location.hash = to("model", file);
   }) }, one.title))), "The examples of this installation were not found."));
   add(place, el("h1", {}, all.folder), dropZone(),
     interrupted.length ? panel("Running and interrupted", el("ul", { class: "plain" }, interrupted.map(jobLine))) : "",
     el("div", { class: "two" },
       el("div", {},
-        panel("Experiments", list(all.experiments.map((name) => el("li", {}, el("a", { href: to("work", name) }, name))),
+        panel("Experiments", list(all.experiments.map((name) => el("li", {}, el("a", { href: to("model", name) }, name))),
           "None yet. Drop files above, or open an example.")),
         panel("Files of rigs", list(all.data.map((name) => el("li", {}, el("a", { href: to("data", name) }, name))), "None yet.")),
         panel("Results", list(all.results.slice(0, 12).map(resultLine), "None yet."))),
