@@ -2,21 +2,14 @@
 #include "studio/web_server.hpp"
 
 #include <chrono>
+#include <optional>
 #include <string_view>
-#include <thread>
 
-#include <fcntl.h>
-#include <httplib.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
-#include "http_connection.hpp"
+#include "http_loop.hpp"
 #include "listening_socket.hpp"
 #include "open_requests.hpp"
-#include "supervisor.hpp"
 
 namespace tunica::app::studio {
 
@@ -63,19 +56,23 @@ void stream(const WebReply& reply, HttpConnection& connection, const std::functi
   connection.spend();
 }
 
-/// The library parses and routes; connections are ours, for their limits.
-class Server final : public httplib::Server {
+HttpLimits limits_of(const WebService& service) {
+  HttpLimits limits;
+  limits.body = service.largest_body;
+  limits.answer = std::chrono::seconds(90);  // a stream of events ends before, and the browser comes again
+  return limits;
+}
+
+class Server final : public ConnectionServer {
  public:
-  explicit Server(const WebService& service) : service_(service) {
-    limits_.body = service.largest_body;
-    limits_.answer = std::chrono::seconds(90);  // a stream of events ends before, and the browser comes again
+  explicit Server(const WebService& service) : ConnectionServer(limits_of(service), service.over), service_(service) {
     const auto reply = [this](const httplib::Request& request, httplib::Response& response) {
       WebReply answer;
       {
-        const OpenRequest open(connection->socket());
+        const OpenRequest open(connection().socket());
         answer = service_.answer(request_of(request));
       }
-      if (answer.events) stream(answer, *connection, service_.over);
+      if (answer.events) stream(answer, connection(), service_.over);
       hand_over(std::move(answer), response);
     };
     Get(".*", reply);
@@ -84,57 +81,21 @@ class Server final : public httplib::Server {
       auto refusal = service_.refused(request_of(request));
       if (!refusal) return HandlerResponse::Unhandled;
       hand_over(std::move(*refusal), response);
-      connection->spend();  // a body that nobody reads would be taken for the next request
+      connection().spend();  // a body that nobody reads would be taken for the next request
       return HandlerResponse::Handled;
     });
   }
 
-  void serve(int socket) {
-    const int yes = 1;  // head and body are two writes: the second would wait for an acknowledgement
-    ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-    HttpConnection here(socket, limits_);
-    connection = &here;
-    bool closed = false;
-    while (!closed && !here.is_spent() && here.wait_for_request(service_.over))
-      if (!process_request(here, false, closed, [&here](httplib::Request& request) {
-            request.ranges.clear();                 // many of them would multiply the answer
-            request.headers.erase("Content-Type");  // a form would be taken apart, and has a limit of its own
-            here.begin_body();
-          }))
-        break;
-    here.close();
-  }
-
  private:
-  static thread_local HttpConnection* connection;
   const WebService& service_;
-  HttpLimits limits_;
 };
-thread_local HttpConnection* Server::connection = nullptr;
 
 }  // namespace
 
 void serve_web(const WebService& service) {
-  constexpr int heartbeat = 50;  // ms
-  int listening = supervised::parked();
-  if (listening < 0) listening = listen_on("127.0.0.1", service.port);
-  ::fcntl(listening, F_SETFL, O_NONBLOCK);
-  supervised::park(listening);
-  answer_open_requests_at_the_end(listening);
+  const int listening = listen_or_go_on("127.0.0.1", service.port);
   service.listening(port_of(listening));
-  Server server(service);
-  httplib::ThreadPool pool(threads);
-  while (!service.over()) {
-    pollfd watched{listening, POLLIN, 0};
-    if (::poll(&watched, 1, heartbeat) <= 0) continue;
-    const int socket = ::accept4(listening, nullptr, nullptr, SOCK_CLOEXEC);
-    if (socket >= 0)
-      pool.enqueue([&server, socket] { server.serve(socket); });
-    else
-      std::this_thread::sleep_for(std::chrono::milliseconds(heartbeat));
-  }
-  ::close(listening);
-  pool.shutdown();
+  Server(service).answer_on(listening, threads);
 }
 
 }  // namespace tunica::app::studio
