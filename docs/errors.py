@@ -41,7 +41,7 @@ SUBJECTS = [
     ("Evaluations that fail", "No errors of the program: such a point is counted, and the search goes on as "
      "`on_failure` says. They stand in evaluations.csv, and in the warning about failed evaluations.",
      ["core/src/assembly/", "core/src/search/", "core/src/uncertainty/", "core/src/posterior/", "core/include/tunica/detail/free_strip", "core/include/tunica/detail/symmetric_strip",
-      "core/include/tunica/detail/free_faces", "core/include/tunica/detail/compressible", "core/src/stability/"]),
+      "core/include/tunica/detail/free_faces", "core/include/tunica/detail/compressible", "core/include/tunica/detail/elastic_only", "core/src/stability/"]),
     ("Warnings about results", "Printed after a run, first in report.html and in result.json.",
      ["core/src/comparison/"]),
     ("Diagnosis", "", ["core/src/diagnosis/", "core/src/discovery/", "core/src/cohort_diagnosis/"]),

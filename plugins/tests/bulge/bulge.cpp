@@ -8,6 +8,7 @@
 
 #include "inflation.hpp"
 #include "tunica/detail/compressible_prediction.hpp"
+#include "tunica/detail/elastic_only.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::bulge {
@@ -74,10 +75,7 @@ class Bulge final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
-    if (input.model.describe().history_size > 0)
-      return Status::failed(
-          "bulge: the model remembers its history, and rows are simulated at equilibrium; choose a model without "
-          "history");
+    if (Status status = detail::elastic_only("bulge", input, output); !status.ok()) return status;
     return free_faces::by_volume(
         input, output, [this](const TestInput& at, const TestOutput& out) { return inflate(at, out, mesh_); },
         [this](const TestInput& at, const TestOutput& out) { return inflate(at, out, mesh_); });
@@ -152,8 +150,6 @@ class Bulge final : public Test {
 
   Status inflate(const TestInput& input, const TestOutput& output, const Mesh& mesh) const {
     const bool wants_parameters = !output.jacobian.empty();
-    if (wants_parameters && !input.model.describe().parameter_derivatives)
-      return Status::failed("bulge: the model has no parameter derivatives; difference the whole prediction");
     const plane::Faces faces = changes(input) || (input.model.describe().compressible && wants_parameters)
                                    ? plane::Faces::free
                                    : plane::Faces::incompressible;

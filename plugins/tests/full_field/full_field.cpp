@@ -10,6 +10,7 @@
 #include "prepared.hpp"
 #include "step_solver.hpp"
 #include "tunica/detail/compressible_prediction.hpp"
+#include "tunica/detail/elastic_only.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::field {
@@ -38,10 +39,7 @@ class FullField final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return prepared_->rows.rows(); }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
-    if (input.model.describe().history_size > 0)
-      return Status::failed(
-          "full_field: the model remembers its history, and steps are simulated at equilibrium; choose a model without "
-          "history");
+    if (Status status = detail::elastic_only("full_field", input, output); !status.ok()) return status;
     if (!input.abscissae.empty() || !output.abscissa_derivative.empty())
       return Status::failed("full_field: points are where they were measured; take mechanisms out that move them");
     return on_mesh(input, output, prepared_->mesh, modified_newton_);
@@ -88,8 +86,6 @@ class FullField final : public Test {
   Status simulate(const TestInput& input, const TestOutput& output, const Meshed& on, plane::Faces faces,
                   bool nearly) const {
     const bool wants_parameters = !output.jacobian.empty();
-    if (wants_parameters && !input.model.describe().parameter_derivatives)
-      return Status::failed("full_field: the model has no parameter derivatives; difference the whole prediction");
     Equilibrium body(on.specimen(), input.model, input.model_parameters, along_, faces);
     const std::size_t size = prepared_->rows.rows().count * prepared_->rows.channels().size();
     std::fill(output.values.begin(), output.values.end(), 0.0);

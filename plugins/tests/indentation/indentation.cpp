@@ -7,6 +7,7 @@
 
 #include "contact.hpp"
 #include "stiffness.hpp"
+#include "tunica/detail/elastic_only.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::indentation {
@@ -47,19 +48,12 @@ class Indentation final : public Test {
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const ModelDescription& model = input.model.describe();
-    if (model.history_size > 0)
-      return Status::failed(
-          "indentation: the model remembers its history, and the laws of the contact are elastic; choose a model "
-          "without "
-          "history");
+    if (Status status = detail::elastic_only("indentation", input, output); !status.ok()) return status;
     if (!model.principal_axes)
       return Status::failed(
-          "indentation: the model has no path in principal axes, of which its shear modulus is taken; choose a model "
-          "that "
-          "has");
+          "indentation: the model has no path in principal axes, of which its shear modulus is taken; choose one that "
+          "has it");
     const bool derivatives = !output.jacobian.empty();
-    if (derivatives && !model.parameter_derivatives)
-      return Status::failed("indentation: the model has no parameter derivatives; difference the whole prediction");
     ShearModulus modulus;
     if (Status status = modulus.evaluate(input.model, input.model_parameters, derivatives); !status.ok())
       return Status::failed("indentation: " + status.reason());

@@ -10,6 +10,7 @@
 #include "pulling.hpp"
 #include "settings.hpp"
 #include "tunica/detail/compressible_prediction.hpp"
+#include "tunica/detail/elastic_only.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::plane {
@@ -41,10 +42,7 @@ class PlaneSpecimen final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
-    if (input.model.describe().history_size > 0)
-      return Status::failed(
-          "plane_specimen: the model remembers its history, and rows are simulated at equilibrium; choose "
-          "a model without history");
+    if (Status status = detail::elastic_only("plane_specimen", input, output); !status.ok()) return status;
     return free_faces::by_volume(
         input, output,
         [this](const TestInput& at, const TestOutput& out) { return pull(at, out, *body(at, false), false); },
@@ -202,8 +200,6 @@ class PlaneSpecimen final : public Test {
 
   Status pull(const TestInput& input, const TestOutput& output, const Body& on, bool changing) const {
     const bool wants_parameters = !output.jacobian.empty();
-    if (wants_parameters && !input.model.describe().parameter_derivatives)
-      return Status::failed("plane_specimen: the model has no parameter derivatives; difference the whole prediction");
     Pulling pulling(on, input.model, input.model_parameters, along_, changing);
     const Gauge driver = gauge_of(on, Gauge::Kind::stretch);
     std::vector<Gauge> gauges;

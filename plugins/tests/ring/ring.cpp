@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "tunica/detail/elastic_only.hpp"
 #include "tunica/plugin.hpp"
 #include "wall.hpp"
 
@@ -46,18 +47,12 @@ class RingPull final : public Test {
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const ModelDescription& model = input.model.describe();
-    if (model.history_size > 0)
-      return Status::failed(
-          "ring: the model remembers its history, and rows are simulated at equilibrium; choose a model without "
-          "history");
+    if (Status status = detail::elastic_only("ring", input, output); !status.ok()) return status;
     if (!model.principal_axes)
       return Status::failed(
-          "ring: the model has no path in principal axes, which the strips of the wall need; choose a model that has, "
-          "or "
-          "fit the legs as a test of type 'uniaxial'");
+          "ring: the model has no path in principal axes, which the strips of the wall need; choose one that has it, "
+          "or fit the legs as a test of type 'uniaxial'");
     const bool derivatives = !output.jacobian.empty();
-    if (derivatives && !model.parameter_derivatives)
-      return Status::failed("ring: the model has no parameter derivatives; difference the whole prediction");
     const std::span<const double> distance =
         input.abscissae.empty() ? std::span<const double>(distance_) : input.abscissae.front();
     Wall wall(ring_, places_, weights_);

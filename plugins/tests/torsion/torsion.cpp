@@ -7,6 +7,7 @@
 
 #include "../tube_rows/tube_rows.hpp"
 #include "section.hpp"
+#include "tunica/detail/elastic_only.hpp"
 #include "tunica/plugin.hpp"
 #include "twisted_rows.hpp"
 
@@ -72,14 +73,8 @@ class Torsion final : public Test {
 
  private:
   Status twist_with(int points, const TestInput& input, const TestOutput& output) const {
-    const ModelDescription& model = input.model.describe();
-    if (model.history_size > 0)
-      return Status::failed(
-          "torsion: the model remembers its history, and rows are simulated at equilibrium; choose a model without "
-          "history");
+    if (Status status = detail::elastic_only("torsion", input, output); !status.ok()) return status;
     const bool wants_parameters = !output.jacobian.empty();
-    if (wants_parameters && !model.parameter_derivatives)
-      return Status::failed("torsion: the model has no parameter derivatives; difference the whole prediction");
     const double thickness = twisted_.outer_radius - twisted_.inner_radius;
     const double inner =
         twisted_.solid() ? 0 : twisted_.outer_radius - thickness * (1 + input.test_parameters[thickness_error]);
