@@ -81,8 +81,8 @@ double MisfitSize::error_squares(std::size_t channel, const Eigen::VectorXd& res
   return squares;
 }
 
-double MisfitSize::squares(const Eigen::VectorXd& residuals, std::size_t free) const {
-  return std::max(residuals.squaredNorm() - freedom_of(rows_, rows_, free), 0.0);
+double MisfitSize::squares(double chi2, std::size_t free) const {
+  return std::max(chi2 - freedom_of(rows_, rows_, free), 0.0);
 }
 
 Size MisfitSize::of(const Eigen::VectorXd& residuals, std::size_t free) const {

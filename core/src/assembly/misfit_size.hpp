@@ -48,7 +48,11 @@ class MisfitSize {
   explicit MisfitSize(std::vector<Channel> channels);
 
   /// `free`: parameters that were fitted; each fits one of all rows away. m² of all rows
-  [[nodiscard]] double squares(const Eigen::VectorXd& residuals, std::size_t free) const;
+  [[nodiscard]] double squares(const Eigen::VectorXd& residuals, std::size_t free) const {
+    return squares(residuals.squaredNorm(), free);
+  }
+  /// The same where only |r|² is known.
+  [[nodiscard]] double squares(double chi2, std::size_t free) const;
   [[nodiscard]] Size of(const Eigen::VectorXd& residuals, std::size_t free) const;
   [[nodiscard]] std::vector<ChannelSize> channels(const Eigen::VectorXd& residuals, std::size_t free) const;
   /// range/σ of each row

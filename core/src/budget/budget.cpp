@@ -145,9 +145,8 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
     budget.contenders.push_back({one.id, one.sort, one.place, one.group, one.term, one.in_the_energy, one.share,
                                  one.probability, one.rest, one.belief});
   for (const diagnosis::FileCause& one : d.explanation.file.causes) {
-    diagnosis::Fit read = analysis.evidence.fit;
-    read.chi2 = one.squares;
-    const double share = 1 - size.squares(read) / std::max(size.squares(analysis.evidence.fit), 1e-300);
+    const diagnosis::Fit& base = analysis.evidence.fit;
+    const double share = 1 - size.squares(one.squares, base) / std::max(size.squares(base), 1e-300);
     if (share > budget.of_file.share) budget.of_file = {one.sentence, one.mend, share};
   }
   if (subject && diagnosis::is_isotropic(analysis.evidence.base->models().model(0)))

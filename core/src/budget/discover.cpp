@@ -63,10 +63,8 @@ std::string leading_words(const Discovery& found) {
   // What is within the tolerance needs no term, and an error of the rig or memory that takes about as much is a rival.
   if (size.of(evidence.fit).rms <= tolerance.share && !found.request.from_nothing) return "";
   for (const discovery::Rival& rival : found.rivals) {
-    diagnosis::Fit left = evidence.fit;
-    left.chi2 = rival.chi2;
     if (!rival.in_the_energy && rival.plausible &&
-        1 - size.squares(left) / std::max(before, 1e-300) > share - as_much_as_terms)
+        1 - size.squares(rival.chi2, evidence.fit) / std::max(before, 1e-300) > share - as_much_as_terms)
       return "";
   }
   if (share < nearly_all || (found.request.from_nothing && rest.rms > nearly * tolerance.share)) return "";

@@ -17,6 +17,8 @@ class MisfitSize {
   explicit MisfitSize(const Evidence& evidence);
 
   [[nodiscard]] double squares(const Fit& fit) const { return size_.squares(fit.residuals, free(fit)); }
+  /// Of a fit with as many free parameters, of which only |r|² is known.
+  [[nodiscard]] double squares(double chi2, const Fit& like) const { return size_.squares(chi2, free(like)); }
   [[nodiscard]] Size of(const Fit& fit) const { return size_.of(fit.residuals, free(fit)); }
   [[nodiscard]] std::vector<ChannelSize> channels(const Fit& fit) const {
     return size_.channels(fit.residuals, free(fit));
