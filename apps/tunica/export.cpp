@@ -13,6 +13,7 @@
 #include "exit_codes.hpp"
 #include "exporting/fitted_material.hpp"
 #include "finite_range.hpp"
+#include "session.hpp"
 #include "tunica/error.hpp"
 #include "unfinished_results.hpp"
 #include "verbs.hpp"
@@ -26,10 +27,11 @@ struct ExportOptions {
   std::optional<double> bulk_ratio;
 };
 
-int export_card(const ExportOptions& options) {
+int export_card(const GlobalOptions& global, const ExportOptions& options) {
   const cards::Target target = cards::target_of(options.target);
   const cards::UnitSystem units = cards::unit_system(options.units);
-  const auto fitted = exporting::fitted_material({options.result, options.run, options.model});
+  const Session session(global);
+  const auto fitted = exporting::fitted_material({options.result, options.run, options.model}, session.catalogue());
   std::optional<double> density;
   if (!options.density.empty()) density = cards::density_of(options.density);
   for (const auto& [option, file] : {std::pair("-o", options.file), std::pair("--subroutine", options.subroutine)})
@@ -58,7 +60,7 @@ int export_card(const ExportOptions& options) {
 
 }  // namespace
 
-void add_export(CLI::App& app, GlobalOptions&, Action& action) {
+void add_export(CLI::App& app, GlobalOptions& global, Action& action) {
   auto options = std::make_shared<ExportOptions>();
   auto* verb = app.add_subcommand("export", "Write the material card of a fit for a finite-element program");
   verb->add_option("result", options->result, "Folder that `tunica run` has written")->required()->type_name("RESULT");
@@ -90,7 +92,8 @@ void add_export(CLI::App& app, GlobalOptions&, Action& action) {
       "The card says where its numbers come from, over which range they were fitted, and\n"
       "how sure they are. What a program cannot express is refused with the reason.\n"
       "docs/export.md derives every number.");
-  verb->callback([&action, options] { action = [options] { return export_card(*options); }; });
+  verb->callback(
+      [&global, &action, options] { action = [&global, options] { return export_card(global, *options); }; });
 }
 
 }  // namespace tunica::app

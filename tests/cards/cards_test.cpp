@@ -5,6 +5,7 @@
 
 #include "cards/card.hpp"
 #include "cards/comment.hpp"
+#include "cards/given.hpp"
 #include "tunica/error.hpp"
 
 using namespace tunica;
@@ -14,19 +15,24 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using tunica::testing::Given;
+using tunica::testing::material;
+using tunica::testing::option;
 
 namespace {
 
-const cards::Material neo{.type = "neo_hooke", .values = {{"mu", 400}}};
-const cards::Material yeoh{.type = "yeoh", .values = {{"c10", 180}, {"c20", -1.5}, {"c30", 0.05}}};
-const cards::Material gent{.type = "gent", .values = {{"mu", 300}, {"Jm", 80}}};
-const cards::Material ogden{.type = "ogden",
-                            .values = {{"mu_1", 600}, {"alpha_1", 1.5}, {"mu_2", -10}, {"alpha_2", -2}}};
-const cards::Material hgo{.type = "hgo", .values = {{"mu", 12}, {"k1", 20}, {"k2", 0.8}, {"theta", 30}}};
-const cards::Material gho{.type = "gho",
-                          .values = {{"mu", 12}, {"kappa", 0.1}, {"k1", 20}, {"k2", 0.8}, {"theta", 30}}};
-const cards::Material dispersed{.type = "holzapfel_2015",
-                                .values = {{"mu", 12}, {"A", 0.2}, {"B", 0.5}, {"k1", 20}, {"k2", 0.8}, {"theta", 30}}};
+/// A pair at ±30 degrees.
+FibreEnergy fibres(double A, double B, EnergyPart::Active active = EnergyPart::Active::argument_positive) {
+  return {12, {{30, 20, 0.8, A, B}, {-30, 20, 0.8, A, B}}, active};
+}
+
+const cards::Material neo{.type = "neo_hooke", .energy = PolynomialEnergy{{{1, 0, 200}}}};
+const cards::Material yeoh{.type = "yeoh", .energy = PolynomialEnergy{{{1, 0, 180}, {2, 0, -1.5}, {3, 0, 0.05}}}};
+const cards::Material gent{.type = "gent", .energy = LimitedChainEnergy{300, 80}};
+const cards::Material ogden{.type = "ogden", .energy = StretchEnergy{{{600, 1.5}, {-10, -2}}}};
+const cards::Material hgo{.type = "hgo", .energy = fibres(0, 1)};
+const cards::Material gho{.type = "gho", .energy = fibres(0.1, 0.7)};
+const cards::Material dispersed{.type = "holzapfel_2015", .energy = fibres(0.2, 0.5)};
 
 const cards::UnitSystem kilopascal = cards::unit_system("mm-mN-kPa");
 
@@ -44,7 +50,8 @@ std::string refused(Target target, const cards::Material& material, cards::CardS
 }
 
 cards::Material switched(cards::Material material, const std::string& fibre_switch) {
-  material.fibre_switch = fibre_switch;
+  std::get<FibreEnergy>(material.energy).active =
+      fibre_switch == "none" ? EnergyPart::Active::always : EnergyPart::Active::fibre_stretched;
   return material;
 }
 
@@ -94,21 +101,11 @@ TEST(Cards, RefuseWhatAProgramCannotExpressWithTheReason) {
   EXPECT_THAT(refused(Target::calculix, switched(hgo, "none")), HasSubstr("fibre_switch is 'none'"));
   EXPECT_THAT(refused(Target::abaqus, switched(gho, "stretch")), HasSubstr("fibre_switch is 'stretch'"));
   EXPECT_EQ(refused(Target::abaqus, switched(hgo, "stretch")), "accepted") << "the same without dispersion";
-  const cards::Material four{.type = "four_fibre",
-                             .values = {{"mu", 12},
-                                        {"k1", 20},
-                                        {"k2", 0.8},
-                                        {"theta", 30},
-                                        {"k1_axial", 5},
-                                        {"k2_axial", 1},
-                                        {"k1_circumferential", 6},
-                                        {"k2_circumferential", 1}}};
+  FibreEnergy with_axial = fibres(0, 1);
+  with_axial.families.push_back({0, 5, 1});
+  const cards::Material four{.type = "four_fibre", .energy = with_axial};
   EXPECT_THAT(refused(Target::abaqus, four), HasSubstr("one k1 and one k2 for all families"));
-  cards::Material many{.type = "ogden"};
-  for (const char k : {'1', '2', '3', '4'}) {
-    many.values[std::string("mu_") + k] = 1;
-    many.values[std::string("alpha_") + k] = 2;
-  }
+  const cards::Material many{.type = "ogden", .energy = StretchEnergy{{{1, 2}, {1, 2}, {1, 2}, {1, 2}}}};
   EXPECT_THAT(refused(Target::calculix, many), HasSubstr("3 terms at most, and these are 4"));
   EXPECT_EQ(refused(Target::abaqus, many), "accepted");
   EXPECT_THAT(refused(Target::ansys, hgo), AllOf(HasSubstr("Ansys cannot express"), HasSubstr("no documented switch")));
@@ -117,7 +114,10 @@ TEST(Cards, RefuseWhatAProgramCannotExpressWithTheReason) {
   EXPECT_THAT(refused(Target::febio, dispersed), HasSubstr("normal of the wall"));
   EXPECT_THAT(refused(Target::febio, switched(hgo, "none")), HasSubstr("fibre_switch is 'none'"));
   EXPECT_THAT(refused(Target::febio, switched(gho, "stretch")), HasSubstr("fibre_switch is 'stretch'"));
-  EXPECT_THAT(refused(Target::calculix, {.type = "demiray"}), HasSubstr("no card is known for the model 'demiray'"));
+  EXPECT_THAT(refusal([] {
+                (void)cards::material_of(tunica::testing::catalogue(), {"fung", {}}, {}, {});
+              }),
+              AllOf(HasSubstr("no card is known for the model 'fung'"), HasSubstr("Known: blatz_ko")));
 }
 
 TEST(Cards, ARefusalNamesOnlyProgramsThatTakeThisModel) {
@@ -143,9 +143,8 @@ TEST(Cards, ARefusalNamesOnlyProgramsThatTakeThisModel) {
 }
 
 TEST(Cards, OfDispersionZeroAreThoseOfAlignedFibres) {
-  cards::Material aligned = gho;
-  aligned.values["kappa"] = 0;
-  EXPECT_EQ(cards::write_card(Target::calculix, aligned), cards::write_card(Target::calculix, hgo));
+  const Given aligned{"gho", {{"mu", 12}, {"kappa", 0}, {"k1", 20}, {"k2", 0.8}, {"theta", 30}}};
+  EXPECT_EQ(cards::write_card(Target::calculix, material(aligned)), cards::write_card(Target::calculix, hgo));
 }
 
 TEST(Cards, RefuseSettingsAndParametersThatAreNotUsable) {
@@ -162,14 +161,45 @@ TEST(Cards, RefuseSettingsAndParametersThatAreNotUsable) {
   // CalculiX takes D1 < 1e-10 for zero.
   EXPECT_THAT(refused(Target::calculix, neo, {.units = cards::unit_system("m-N-Pa"), .bulk_ratio = 1e6}),
               HasSubstr("CalculiX takes what is below 1e-10 for 0"));
-  EXPECT_THAT(refused(Target::calculix, {.type = "yeoh", .values = {{"c10", 1}}}),
-              HasSubstr("the parameter 'c20' has no value, only c10"));
-  EXPECT_THAT(refused(Target::calculix, {.type = "neo_hooke", .values = {{"mu", -1}}}),
+  EXPECT_THAT(refused(Target::calculix, material({"neo_hooke", {{"mu", -1}}})),
               HasSubstr("found a shear modulus of -1 kPa at rest"));
-  EXPECT_THAT(refused(Target::calculix, {.type = "neo_hooke", .values = {{"mu", NAN}}}), HasSubstr("finite number"));
-  EXPECT_THAT(refused(Target::calculix, {.type = "ogden", .values = {{"mu_1", 1}, {"alpha_1", 0}}}),
+  EXPECT_THAT(refusal([] {
+                (void)material({"ogden", {{"mu_1", 1}, {"alpha_1", 0}}, option("terms", std::int64_t{1})});
+              }),
               HasSubstr("the exponent alpha_1 is 0"));
   EXPECT_THAT(refusal([] { (void)cards::target_of("calculx"); }), HasSubstr("Did you mean 'calculix'?"));
+}
+
+TEST(Cards, AreThoseOfTheFormOfAnEnergyWhateverItsModelIsCalled) {
+  const auto own = [](PolynomialEnergy energy) {
+    return cards::Material{.type = "my_own", .energy = std::move(energy)};
+  };
+  const cards::CardSettings settings{.name = "R", .units = kilopascal};
+  EXPECT_EQ(cards::write_card(Target::abaqus, own({{{2, 0, -1.5}, {1, 0, 180}, {3, 0, 0.05}}}), settings),
+            cards::write_card(Target::abaqus, yeoh, settings));
+  // 4 (I1 − 3)² beside 200 (I1 − 3) and 20 (I2 − 3): no program has this form by name.
+  const cards::Material mixed = own({{{1, 0, 200}, {0, 1, 20}, {2, 0, 4}}});
+  EXPECT_THAT(cards::write_card(Target::abaqus, mixed, settings),
+              EndsWith("*HYPERELASTIC, POLYNOMIAL, N=2\n200, 20, 4, 0, 0, 0, 0\n"));
+  EXPECT_THAT(refused(Target::febio, mixed), HasSubstr("two constants"));
+  const cards::Material fourth = own({{{1, 0, 200}, {4, 0, 1}}});
+  EXPECT_THAT(refused(Target::ansys, fourth), HasSubstr("end with the third degree"));
+  EXPECT_THAT(refused(Target::lsdyna, fourth, {.density = 1000}), HasSubstr("ends with c30"));
+}
+
+TEST(Cards, TakeTheVolumeOfAMechanismAndRefuseOthers) {
+  const auto by = [](const std::string& mechanism, Options options, std::vector<double> values) {
+    Options all = tunica::testing::defaults(tunica::testing::catalogue().mechanisms().at(mechanism).factory.options);
+    for (const auto& [name, value] : options.values()) all.set(name, value);
+    const std::vector<cards::Ingredient> mechanisms{{mechanism, all}};
+    return cards::material_of(tunica::testing::catalogue(), {"neo_hooke", {}}, mechanisms, values);
+  };
+  EXPECT_DOUBLE_EQ(by("compressibility", option("invariants", "isochoric"), {400, 1e-5}).volume.bulk_modulus, 1e5);
+  EXPECT_THAT(refusal([&] { (void)by("compressibility", {}, {400, 1e-5}); }), HasSubstr("full invariants"));
+  EXPECT_THAT(refusal([&] {
+                (void)by("second_invariant", {}, {400, 1});
+              }),
+              HasSubstr("the mechanism 'second_invariant' changes the model 'neo_hooke', and no card has it"));
 }
 
 TEST(Units, OfCardsAreConsistent) {

@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "cards/card.hpp"
+#include "cards/given.hpp"
 #include "cards/reading.hpp"
 #include "conformance/material_point.hpp"
 #include "execution/folder.hpp"
-#include "support/loaded.hpp"
 
 namespace tunica::testing {
 namespace {
@@ -102,13 +102,13 @@ void compare(const std::string& type, const std::string& fibre_switch) {
   int active = 0;
   for (int draw = 0; draw < 100; ++draw) {
     auto p = sampler.parameters(model->describe());
-    cards::Material material{.type = type, .fibre_switch = fibre_switch};
+    Given given{type, {}, options};
     for (std::size_t k = 0; k < p.size(); ++k) {
       const auto& name = model->describe().parameters[k].name;
       if (name.starts_with("k2")) p[k] = draw % 10 == 0 ? 0 : std::min(p[k], 10.0);
-      material.values[name] = p[k];
+      given.values[name] = p[k];
     }
-    const auto card = cards::write_card(cards::Target::abaqus, material,
+    const auto card = cards::write_card(cards::Target::abaqus, material(given),
                                         {.units = cards::unit_system("mm-mN-kPa"), .subroutine = true});
     const auto properties = trial::data_of(card, "ANISOTROPIC HYPERELASTIC, USER");
     const auto directions = trial::directions_of(card);

@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "cards/card.hpp"
+#include "cards/given.hpp"
 #include "cards/reading.hpp"
 #include "conformance/material_point.hpp"
-#include "support/loaded.hpp"
 
 namespace tunica::testing {
 namespace {
@@ -25,11 +25,15 @@ using Energy = std::function<double(const State&)>;
 using boost::property_tree::ptree;
 
 /// Few digits, so that they fit into ten columns.
-const std::vector<cards::Material> materials = {
+const std::vector<Given> materials = {
     {.type = "neo_hooke", .values = {{"mu", 412.5}}},
     {.type = "mooney_rivlin", .values = {{"c10", 180.25}, {"c01", 20.5}}},
-    {.type = "mooney_rivlin", .values = {{"c10", 180.25}, {"c01", 20.5}, {"c11", -1.25}}},
-    {.type = "mooney_rivlin", .values = {{"c10", 180.25}, {"c01", 20.5}, {"c20", 3.25}, {"c11", -1.25}, {"c02", 0.5}}},
+    {.type = "mooney_rivlin",
+     .values = {{"c10", 180.25}, {"c01", 20.5}, {"c11", -1.25}},
+     .options = option("terms", std::int64_t{3})},
+    {.type = "mooney_rivlin",
+     .values = {{"c10", 180.25}, {"c01", 20.5}, {"c20", 3.25}, {"c11", -1.25}, {"c02", 0.5}},
+     .options = option("terms", std::int64_t{5})},
     {.type = "mooney_rivlin",
      .values = {{"c10", 180.25},
                 {"c01", 20.5},
@@ -39,7 +43,8 @@ const std::vector<cards::Material> materials = {
                 {"c30", 0.125},
                 {"c21", -0.25},
                 {"c12", 0.0625},
-                {"c03", 0.03125}}},
+                {"c03", 0.03125}},
+     .options = option("terms", std::int64_t{9})},
     {.type = "yeoh", .values = {{"c10", 170.5}, {"c20", -1.25}, {"c30", 0.0375}}},
     {.type = "gent", .values = {{"mu", 300.5}, {"Jm", 80.25}}},
     {.type = "ogden",
@@ -96,7 +101,7 @@ Energy hyperelastic(const std::string& type, const std::vector<double>& v) {
   };
 }
 
-Energy of_abaqus(const cards::Material& material, const std::string& card) {
+Energy of_abaqus(const Given& material, const std::string& card) {
   if (card.find("ANISOTROPIC") == std::string::npos)
     return hyperelastic(material.type, trial::data_of(card, "*HYPERELASTIC"));
   const auto v = trial::data_of(card, "HOLZAPFEL");
@@ -109,7 +114,7 @@ Energy of_abaqus(const cards::Material& material, const std::string& card) {
   };
 }
 
-Energy of_calculix(const cards::Material& material, const std::string& card) {
+Energy of_calculix(const Given& material, const std::string& card) {
   if (card.find("USER MATERIAL") == std::string::npos)
     return hyperelastic(material.type, trial::data_of(card, "*HYPERELASTIC"));
   const auto v = trial::data_of(card, "*USER MATERIAL");
@@ -123,7 +128,7 @@ Energy of_calculix(const cards::Material& material, const std::string& card) {
   };
 }
 
-Energy of_ansys(const cards::Material& material, const std::string& card) {
+Energy of_ansys(const Given& material, const std::string& card) {
   std::vector<double> v;
   for (const auto& line : trial::lines_of(card, "!"))
     if (line.starts_with("TBDATA,")) {
@@ -152,7 +157,7 @@ std::vector<double> fields(const std::string& line) {
   return found;
 }
 
-Energy of_lsdyna(const cards::Material&, const std::string& card) {
+Energy of_lsdyna(const Given&, const std::string& card) {
   const auto lines = trial::lines_of(card, "$");
   const auto first = fields(lines.at(2)), v = fields(lines.at(3));
   EXPECT_NEAR(first.at(1), 1e-12 * 1e3 * 1e3, 1e-20) << "1000 kg/m3 in mN s2/mm4";
@@ -210,7 +215,7 @@ double febio_solid(const ptree& solid, const State& s) {
   return sum;
 }
 
-Energy of_febio(const cards::Material&, const std::string& card) {
+Energy of_febio(const Given&, const std::string& card) {
   std::istringstream stream(card);
   ptree document;
   boost::property_tree::read_xml(stream, document);
@@ -220,28 +225,25 @@ Energy of_febio(const cards::Material&, const std::string& card) {
   return [material](const State& s) { return febio_solid(material, s); };
 }
 
-void expect_the_energy(Target target, Energy (*reader)(const cards::Material&, const std::string&),
+void expect_the_energy(Target target, Energy (*reader)(const Given&, const std::string&),
                        const std::vector<std::string>& types, double limit = 1e-9) {
   conformance::Sampler sampler(17);  // deterministic
-  for (const auto& material : materials) {
-    if (std::find(types.begin(), types.end(), material.type) == types.end()) continue;
-    Options options;
-    if (material.type == "mooney_rivlin") options.set("terms", static_cast<std::int64_t>(material.values.size()));
-    const bool written = target != Target::febio && !(target == Target::lsdyna && material.values.size() == 9);
-    if (material.type == "mooney_rivlin" && material.values.size() > 2 && !written) continue;  // refused
-    const auto model = make_model(material.type, options);
-    std::vector<double> p;
-    for (const auto& parameter : model->describe().parameters) p.push_back(material.values.at(parameter.name));
-    const Energy energy = reader(material, cards::write_card(target, material,
-                                                             {.name = "WALL",
-                                                              .units = cards::unit_system("mm-mN-kPa"),
-                                                              .density = 1000,
-                                                              .remarks = {"A remark -- with 3, 2, 1."}}));
+  for (const auto& given : materials) {
+    if (std::find(types.begin(), types.end(), given.type) == types.end()) continue;
+    const bool written = target != Target::febio && !(target == Target::lsdyna && given.values.size() == 9);
+    if (given.type == "mooney_rivlin" && given.values.size() > 2 && !written) continue;  // refused
+    const auto model = make_model(given.type, given.options);
+    const std::vector<double> p = values_of(given);
+    const Energy energy = reader(given, cards::write_card(target, material(given),
+                                                          {.name = "WALL",
+                                                           .units = cards::unit_system("mm-mN-kPa"),
+                                                           .density = 1000,
+                                                           .remarks = {"A remark -- with 3, 2, 1."}}));
     for (int draw = 0; draw < 40; ++draw) {
       Eigen::Matrix3d C = conformance::to_matrix(sampler.right_cauchy_green());
       C /= std::cbrt(C.determinant());
       const double expected = conformance::evaluate(*model, conformance::to_tensor(C), p).energy;
-      EXPECT_NEAR(energy({C}), expected, limit * std::abs(expected)) << material.type;
+      EXPECT_NEAR(energy({C}), expected, limit * std::abs(expected)) << given.type;
     }
   }
 }

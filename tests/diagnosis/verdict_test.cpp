@@ -8,7 +8,6 @@
 
 #include <gmock/gmock.h>
 
-#include "diagnosis/hypotheses/record_errors.hpp"
 #include "diagnosis/measured.hpp"
 #include "diagnosis/output/outputs.hpp"
 #include "text/wrapping.hpp"
@@ -48,7 +47,7 @@ TEST(Verdict, WhereThereIsNothingItSaysWhatCouldHide) {
   // `file`.
   const auto& mechanisms = testing::catalogue().mechanisms();
   const auto of_the_record = std::count_if(mechanisms.begin(), mechanisms.end(),
-                                           [](const auto& one) { return diagnosis::errs_in_the_record(one.first); });
+                                           [](const auto& one) { return one.second.factory.question_only; });
   ASSERT_EQ(found.prospects.detectable.size(), mechanisms.size() - 2 - static_cast<std::size_t>(of_the_record));
   for (const auto& entry : found.prospects.detectable)
     EXPECT_EQ(entry.absent.empty(), std::isfinite(entry.detectable)) << entry.id << ": " << entry.absent;

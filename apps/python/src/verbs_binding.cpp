@@ -242,11 +242,11 @@ py::dict discover(const Loaded& loaded, const Folder& directory, unsigned thread
 }
 
 /// What `tunica export` prints.
-std::string export_card(const std::string& result, const std::string& target, const std::string& run,
-                        const std::string& model, const std::string& units, const std::string& name,
-                        const std::optional<double>& bulk_ratio, const std::string& density,
+std::string export_card(const Library& library, const std::string& result, const std::string& target,
+                        const std::string& run, const std::string& model, const std::string& units,
+                        const std::string& name, const std::optional<double>& bulk_ratio, const std::string& density,
                         const std::string& subroutine) {
-  const auto fitted = exporting::fitted_material({result, run, model});
+  const auto fitted = exporting::fitted_material({result, run, model}, *library.catalogue());
   if (!subroutine.empty() && std::filesystem::exists(subroutine))
     throw InputError(fmt::format("subroutine '{}': is there already; name a new file", subroutine));
   std::optional<double> mass;

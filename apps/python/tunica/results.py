@@ -11,6 +11,7 @@ import numpy
 from . import _core
 from .arguments import finite, text
 from .errors import EvaluationError, InputError
+from .library import library
 from .table import Table
 
 
@@ -224,7 +225,7 @@ class Run:
             density = f"{finite(density, 'density')!r} kg/m3"
         words = {"to": to, "model": model, "units": units, "name": name, "density": density or "", "subroutine": subroutine}
         to, model, units, name, density, subroutine = (text(value, what) for what, value in words.items())
-        return _core.export_card(str(self._result.directory), to, self.name, model, units, name,
+        return _core.export_card(library(), str(self._result.directory), to, self.name, model, units, name,
                                  finite(bulk_ratio, "bulk_ratio"), density, subroutine)
 
     def __repr__(self):

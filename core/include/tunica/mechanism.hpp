@@ -3,10 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tunica/card_energy.hpp"
 #include "tunica/model.hpp"
 #include "tunica/options.hpp"
 #include "tunica/test.hpp"
@@ -96,6 +98,21 @@ struct MechanismFactory {
   /// it where one is 0, and says so.
   std::vector<std::string> sizes = {};
 
+  /// Something wrong in the record of tests, by an amplitude that was fitted.
+  struct Misrecorded {
+    std::string tests;      ///< quoted: "'a' and 'b'"
+    std::string direction;  ///< "axial " of a sheet whose directions err by themselves; "" otherwise
+    double amplitude;
+  };
+  /// Set where a calibration of the rig settles the matter: what an amplitude means, in words without a full stop.
+  /// Diagnosis then also asks whether all tests were recorded so, as a question about the file.
+  std::function<std::string(const Misrecorded&)> calibration = {};
+  /// Whether it is such a question only, because it can do what a stiffer material does. Otherwise it is a cause in the
+  /// rig as well, in single tests.
+  bool question_only = false;
+  /// Whether its option "channel" has to name one, so that each channel has an amplitude of its own.
+  bool by_channel = false;
+
   /// In place of wrap_test: the name of a parameter that tests have themselves, a native imperfection. It rests at its
   /// null unless this mechanism frees it. An option that the test declares too overrides the test's.
   std::string native = {};
@@ -113,6 +130,13 @@ struct MechanismFactory {
   /// Wraps a test, for the stages test and data. Throws InputError if it cannot apply. Beside its own options it gets
   /// those of the test, under names that it does not declare itself.
   std::function<std::unique_ptr<Test>(std::unique_ptr<Test>, const Options&)> wrap_test = {};
+
+  /// Whether its options are those of a term of the energy, as `added_term` documents them. Discovery adds what it
+  /// finds to a model by the mechanism with this role.
+  bool writes_terms = false;
+  /// Optional, for a mechanism of models that finite-element programs have as an energy of the volume: that energy at
+  /// these values of its own parameters. Throws InputError where no program has it with these options.
+  std::function<CardVolume(const Options&, std::span<const double>)> card_volume = {};
 
   /// The parameters of an object with these options.
   [[nodiscard]] std::vector<Parameter> parameters_with(const Options& with) const {

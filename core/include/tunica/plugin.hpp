@@ -6,11 +6,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 #include <nlohmann/detail/abi_macros.hpp>
 
+#include "tunica/card_energy.hpp"
 #include "tunica/mechanism.hpp"
 #include "tunica/model.hpp"
 #include "tunica/optimizer.hpp"
@@ -55,7 +57,18 @@ struct ModelFactory {
   std::vector<Option> options;
   /// Makes a model from checked options. Throws InputError for combinations that make no sense.
   std::function<std::unique_ptr<Model>(const Options&)> create;
+  /// Optional, for a model whose energy finite-element programs have: that energy. `tunica export` writes its cards.
+  CardFormula card = {};
+  /// Whether its option "terms" takes any term of the energy, as `composed` documents them. Discovery writes what it
+  /// finds by the model with this role.
+  bool writes_terms = false;
 };
+
+/// The same factory with the energy of its cards.
+inline ModelFactory with_card(ModelFactory factory, CardFormula card) {
+  factory.card = std::move(card);
+  return factory;
+}
 
 /// A cheaper test that predicts nearly the same rows, for TestFactory::stand_in. Its observables and the parameters
 /// that an experiment may free have the same names.
@@ -101,6 +114,9 @@ struct OptimizerFactory {
   std::vector<Option> options;
   /// Makes an optimizer, a new one for every search. Throws InputError for combinations that make no sense.
   std::function<std::unique_ptr<Optimizer>(const Options&)> create;
+  /// Whether it goes down from its start by the Jacobian of the residuals, and its option "starts" says how often. What
+  /// refines a fit takes the optimizer with this role: intervals, certificates, the extended experiment of a diagnosis.
+  bool refines = false;
 };
 
 /// Receives the factories of a plugin, any number of each kind. Nothing counts unless the registration returns

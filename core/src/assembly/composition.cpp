@@ -72,13 +72,14 @@ const experiment::ParameterSetting* setting_of(const ParameterSettings& settings
 }
 
 std::vector<Slot> own_slots(const std::vector<Parameter>& parameters, const ParameterSettings& settings,
-                            const std::string& prefix, const std::string& owner) {
+                            const ParameterId& entry, const std::string& prefix, const std::string& owner) {
   std::vector<Slot> slots;
   std::vector<std::string> names;
   for (const Parameter& parameter : parameters) {
     names.push_back(parameter.name);
     slots.push_back({parameter, setting_of(settings, parameter.name)});
     slots.back().declaration.name = prefix + parameter.name;
+    slots.back().id = {entry.kind, entry.owner, "", parameter.name};
   }
   refuse_unknown(settings, names, owner);
   return slots;
@@ -86,7 +87,7 @@ std::vector<Slot> own_slots(const std::vector<Parameter>& parameters, const Para
 
 /// Appends the parameters that `layer` put behind `slots`, as the decorator declares them.
 void append_slots(std::vector<Slot>& slots, const std::vector<Parameter>& decorated, const Layer& layer,
-                  const std::string& prefix, const std::string& owner) {
+                  const ParameterId& entry, const std::string& prefix, const std::string& owner) {
   const auto declared = layer.mechanism->factory.parameters_with(layer.entry->options);
   if (decorated.size() != slots.size() + declared.size()) {
     throw plugins::PluginFailure(fmt::format(
@@ -100,6 +101,7 @@ void append_slots(std::vector<Slot>& slots, const std::vector<Parameter>& decora
     names.push_back(declared[k].name);
     slots.push_back({decorated[first + k], setting_of(layer.entry->parameters, declared[k].name)});
     slots.back().declaration.name = fmt::format("{}{}.{}", prefix, layer.entry->name(), declared[k].name);
+    slots.back().id = {entry.kind, entry.owner, layer.entry->name(), declared[k].name};
   }
   refuse_unknown(layer.entry->parameters, names, fmt::format("mechanism '{}' of {}", layer.entry->name(), owner));
 }
@@ -127,37 +129,13 @@ void refuse_other_tests(const experiment::TestEntry& entry, const Layer& layer, 
 }
 
 /// TestSetup::card for a model of the experiment.
-auto card_writer(const experiment::ModelEntry& entry) {
-  std::string mechanisms;
-  cards::Material material{entry.type, {}};
-  bool changes_volume = false;
-  for (const MechanismEntry& mechanism : entry.mechanisms) {
-    const auto word = [&](const char* option, const char* usual) {
-      return mechanism.options.has(option) ? mechanism.options.text(option) : usual;
-    };
-    changes_volume = mechanism.type == "compressibility" && word("invariants", "full") == "isochoric";
-    if (changes_volume)
-      material.volume_law = word("law", "logarithmic");
-    else
-      mechanisms += (mechanisms.empty() ? "" : ", ") + mechanism.name();
-  }
-  if (entry.options.has("fibre_switch")) material.fibre_switch = entry.options.text("fibre_switch");
-  return [material, mechanisms, changes_volume](const Model& model, std::span<const double> values,
-                                                const CardRequest& request) {
-    if (!mechanisms.empty())
-      throw InputError(
-          fmt::format("the model has mechanisms, {}, and no material card has them, but for \"compressibility\" with "
-                      "\"invariants\": \"isochoric\"; take them out, or write its parameters by name",
-                      mechanisms));
-    cards::Material filled = material;
-    const auto& parameters = model.describe().parameters;
-    for (std::size_t j = 0; j < parameters.size(); ++j) filled.values[parameters[j].name] = values[j];
-    if (changes_volume) {
-      const double compliance = values[parameters.size() - 1];
-      filled.values.erase(parameters.back().name);
-      filled.bulk = compliance > 0 ? 1 / compliance : 0;
-    }
-    return cards::write_card(cards::target_of(request.program), filled,
+auto card_writer(const experiment::ModelEntry& entry, const plugins::Catalogue& catalogue) {
+  std::vector<cards::Ingredient> mechanisms;
+  for (const MechanismEntry& mechanism : entry.mechanisms) mechanisms.push_back({mechanism.type, mechanism.options});
+  return [model = cards::Ingredient{entry.type, entry.options}, mechanisms, &catalogue](
+             const Model&, std::span<const double> values, const CardRequest& request) {
+    return cards::write_card(cards::target_of(request.program),
+                             cards::material_of(catalogue, model, mechanisms, values),
                              {.name = request.material, .units = cards::unit_system(request.units)});
   };
 }
@@ -195,7 +173,9 @@ void expose_native(std::vector<Slot>& slots, const std::vector<Parameter>& of_te
     throw InputError(fmt::format("{}: the mechanism '{}' is the parameter '{}' of {}; name one of the two",
                                  slot.setting->pointer, factory.id, factory.native, owner));
   const std::string& name = factory.parameters.front().name;
-  slot.declaration.name = fmt::format("{}{}.{}", prefix, factory.id, name);
+  slot.declaration.name = fmt::format("{}{}.{}", prefix, layer.entry->name(), name);
+  slot.id.mechanism = layer.entry->name();
+  slot.id.name = name;
   slot.setting = setting_of(layer.entry->parameters, name);
   slot.null = std::numeric_limits<double>::quiet_NaN();
   refuse_unknown(layer.entry->parameters, {name}, fmt::format("mechanism '{}' of {}", factory.id, owner));
@@ -208,10 +188,11 @@ ComposedModel compose_model(const experiment::ModelEntry& entry, const plugins::
   const std::string owner = fmt::format("model '{}'", entry.name);
   const auto& on_shelf = look_up(catalogue.models(), entry.type, "model type");
   ComposedModel composed{plugins::create(on_shelf, entry.options), on_shelf.plugin, {}};
-  composed.slots = own_slots(composed.model->describe().parameters, entry.parameters, prefix, owner);
+  const ParameterId id = of_model(entry.name, "", "");
+  composed.slots = own_slots(composed.model->describe().parameters, entry.parameters, id, prefix, owner);
   for (const Layer& layer : layers(entry.mechanisms, catalogue, owner, true)) {
     composed.model = plugins::wrap(*layer.mechanism, std::move(composed.model), layer.entry->options);
-    append_slots(composed.slots, composed.model->describe().parameters, layer, prefix, owner);
+    append_slots(composed.slots, composed.model->describe().parameters, layer, id, prefix, owner);
   }
   return composed;
 }
@@ -231,7 +212,7 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
     for (const experiment::LayerEntry& one : entry.layers) setup.layers.push_back(one.thickness);
     for (const data::Channel& channel : composed.dataset.channels) setup.measured.emplace_back(channel.values);
     setup.folder = entry.folder.string();
-    if (model != nullptr) setup.card = card_writer(*model);
+    if (model != nullptr) setup.card = card_writer(*model, catalogue);
     setup.unit_factor = [](std::string_view from, std::string_view to) { return data::convert(1, from, to); };
     setup.interrupted = [] {
       return plugins::interrupted.load() || plugins::Clock::now() >= plugins::deadline_of_this_thread();
@@ -242,7 +223,8 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
   }
   const TestDescription& bare = composed.test->describe();
   refuse_excluded(entry, on_shelf.factory.parameters, bare.parameters, owner);
-  composed.slots = own_slots(bare.parameters, entry.parameters, prefix, owner);
+  const ParameterId id = assembly::of_test(entry.name, "", "");
+  composed.slots = own_slots(bare.parameters, entry.parameters, id, prefix, owner);
   for (std::size_t k = 0; k < std::min(bare.nulls.size(), composed.slots.size()); ++k)
     composed.slots[k].null = bare.nulls[k];
   const std::vector<Parameter> own = bare.parameters;
@@ -253,7 +235,7 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
     }
     composed.test = plugins::wrap(*layer.mechanism, std::move(composed.test),
                                   plugins::with_options_of_test(layer.entry->options, of_test));
-    append_slots(composed.slots, composed.test->describe().parameters, layer, prefix, owner);
+    append_slots(composed.slots, composed.test->describe().parameters, layer, id, prefix, owner);
   }
   const TestRows& rows = composed.test->rows();
   if (rows.count != composed.dataset.count || rows.channels.size() != composed.dataset.channels.size()) {

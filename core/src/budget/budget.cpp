@@ -39,7 +39,7 @@ std::optional<discovery::Subject> subject_of(const diagnosis::Diagnosis& d, cons
   const diagnosis::Evidence& evidence = d.analysis.evidence;
   if (d.request.model.empty() || evidence.base->models().count() != 1 || evidence.base->layout().has_costly_tests)
     return std::nullopt;
-  if (!d.request.mechanisms.empty() || !catalogue.models().contains("composed")) return std::nullopt;
+  if (!d.request.mechanisms.empty() || !catalogue.term_model()) return std::nullopt;
   return discovery::Subject{evidence.experiment, evidence.run, d.request.model, false, catalogue};
 }
 

@@ -34,19 +34,17 @@ void check_d1(const Draft& draft) {
 }
 
 // U = C10 (Ī1 − 3) + (J − 1)²/D1 + Σ k1/(2 k2) [exp(k2 ⟨Ī4 − 1⟩²) − 1], up to four families, each with its direction.
-std::string elastic_fiber(const Draft& draft) {
-  const auto& material = draft.material;
-  const FibreEnergy energy = fibre_energy(material);
-  const bool unswitched = material.fibre_switch == "none";
+std::string elastic_fiber(const Draft& draft, const FibreEnergy& energy) {
+  const bool unswitched = energy.active == EnergyPart::Active::always;
   const std::string with_strain = unswitched ? " with fibre_switch 'strain'" : "";
   for (const auto& family : energy.families)
-    if (family.A != 0 || !family.without_normal())
+    if (family.A != 0 || !without_normal(family))
       throw CannotExpress{"its fibres have no dispersion (user material ELASTIC_FIBER)",
                           fmt::format("fit 'hgo' or 'four_fibre'{}", with_strain)};
   if (unswitched)
     throw CannotExpress{"its fibres carry no load where they are shortened, and fibre_switch is 'none'",
                         "fit" + with_strain};
-  std::vector<std::string> constants = {number(0.5 * draft.modulus("mu")), number(draft.d1())};
+  std::vector<std::string> constants = {number(0.5 * draft.stress * energy.mu), number(draft.d1())};
   for (const auto& family : energy.families) {
     const double angle = family.angle * std::numbers::pi / 180;
     constants.insert(constants.end(), {component(std::sin(angle)), component(std::cos(angle)),
@@ -61,23 +59,22 @@ std::string elastic_fiber(const Draft& draft) {
 }
 
 /// CalculiX 2.20 breaks off with N=1: a single term is written as two halves.
-std::vector<FoamTerm> halved(const Material& material) {
-  std::vector<FoamTerm> terms = foam_terms(material);
-  if (terms.size() > 1) return terms;
-  terms.front().mu /= 2;
-  terms.push_back(terms.front());
-  return terms;
+FoamEnergy halved(FoamEnergy foam) {
+  if (foam.terms.size() > 1) return foam;
+  foam.terms.front().mu /= 2;
+  foam.terms.push_back(foam.terms.front());
+  return foam;
 }
 
 }  // namespace
 
 std::string calculix_card(const Draft& draft) {
-  if (is_foam(draft.material))
-    return fmt::format("*MATERIAL, NAME={}\n{}", draft.settings.name, hyperfoam_keyword(draft, halved(draft.material)));
+  const std::string head = fmt::format("*MATERIAL, NAME={}\n", draft.settings.name);
+  if (const auto* const foam = std::get_if<FoamEnergy>(&draft.material.energy))
+    return head + hyperfoam_keyword(draft, halved(*foam));
   check_d1(draft);
-  if (has_fibres(draft.material)) return elastic_fiber(draft);
-  const std::string keyword = hyperelastic_keyword(draft, 3);
-  return fmt::format("*MATERIAL, NAME={}\n{}", draft.settings.name, keyword);
+  if (const auto* const fibres = std::get_if<FibreEnergy>(&draft.material.energy)) return elastic_fiber(draft, *fibres);
+  return head + hyperelastic_keyword(draft, 3);
 }
 
 }  // namespace tunica::cards

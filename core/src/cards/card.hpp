@@ -45,8 +45,8 @@ struct CardSettings {
 /// The card as text, each line ended; ASCII, without a date, the same for the same arguments. Throws InputError where
 /// the program cannot express the model, with the reason, and where a setting or a parameter is not usable.
 ///
-///     write_card(Target::calculix, {.type = "yeoh", .values = {{"c10", 180}, {"c20", -1.5}, {"c30", 0.05}}},
-///                {.name = "RUBBER", .units = unit_system("mm-N-MPa")})
+///     const PolynomialEnergy yeoh{{{1, 0, 180}, {2, 0, -1.5}, {3, 0, 0.05}}};
+///     write_card(Target::calculix, {.type = "yeoh", .energy = yeoh}, {.units = unit_system("mm-N-MPa")})
 std::string write_card(Target target, const Material& material, const CardSettings& settings = {});
 
 /// The Fortran source of Abaqus' user subroutine UANISOHYPER_INV for every fibre model and every fibre_switch. It reads

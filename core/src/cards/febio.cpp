@@ -30,9 +30,10 @@ const char* const axes =
     "one. -->\n";
 
 // ψ = c/2 (Ī1 − 3) + k1/(2 k2) Σ (exp(k2 ⟨E⟩²) − 1), the families at ±gamma from the first material axis
-std::string holzapfel_gasser_ogden(const Draft& draft, const FibreFamily& family) {
+std::string holzapfel_gasser_ogden(const Draft& draft, const FibreEnergy& energy) {
+  const FibreFamily& family = energy.families.front();
   return axes + material(draft, "Holzapfel-Gasser-Ogden",
-                         element("c", draft.modulus("mu")) + element("k1", draft.stress * family.k1) +
+                         element("c", draft.stress * energy.mu) + element("k1", draft.stress * family.k1) +
                              element("k2", family.k2) + element("gamma", 90 - std::abs(family.angle)) +
                              element("kappa", family.A));
 }
@@ -40,8 +41,10 @@ std::string holzapfel_gasser_ogden(const Draft& draft, const FibreFamily& family
 // ψ = ξ/(α β) (exp(α ⟨I − 1⟩^β) − 1) for every family, β = 2
 std::string mixture(const Draft& draft, const FibreEnergy& energy) {
   std::string solids = fmt::format("  <solid type=\"Mooney-Rivlin\">\n  {}  {}  </solid>\n",
-                                   element("c1", 0.5 * draft.modulus("mu")), element("c2", 0));
+                                   element("c1", 0.5 * draft.stress * energy.mu), element("c2", 0));
   for (const auto& family : energy.families) {
+    if (family.A > 0)
+      throw CannotExpress{"its mixtures have fibres without dispersion only", "fit a pair of families, or A = 0"};
     const double angle = family.angle * std::numbers::pi / 180;
     solids += fmt::format(
         "  <solid type=\"fiber-exp-pow-uncoupled\">\n  {}  {}  {}    <fiber type=\"vector\">{},{},0</fiber>\n  "
@@ -52,44 +55,50 @@ std::string mixture(const Draft& draft, const FibreEnergy& energy) {
   return axes + material(draft, "uncoupled solid mixture", solids);
 }
 
-std::string fibres(const Draft& draft) {
-  const auto& energy = fibre_energy(draft.material);
-  const FibreFamily& family = energy.families.front();
-  const std::string& chosen = draft.material.fibre_switch;
-  if (!family.without_normal())
-    throw CannotExpress{"its Holzapfel-Gasser-Ogden energy lacks the stretch along the normal of the wall", ""};
-  if (chosen == "none" || (chosen == "stretch" && family.A > 0))
-    throw CannotExpress{fmt::format("it switches fibres by their strain E, and fibre_switch is '{}'", chosen),
-                        "fit with fibre_switch 'strain'"};
-  return draft.material.type == "four_fibre" ? mixture(draft, energy) : holzapfel_gasser_ogden(draft, family);
+std::string fibres(const Draft& draft, const FibreEnergy& energy) {
+  for (const FibreFamily& family : energy.families)
+    if (!without_normal(family))
+      throw CannotExpress{"its Holzapfel-Gasser-Ogden energy lacks the stretch along the normal of the wall", ""};
+  if (energy.active == EnergyPart::Active::always ||
+      (energy.active == EnergyPart::Active::fibre_stretched && energy.families.front().A > 0))
+    throw CannotExpress{
+        fmt::format("it switches fibres by their strain E, and fibre_switch is '{}'", switch_words(energy)),
+        "fit with fibre_switch 'strain'"};
+  return is_pair(energy) ? holzapfel_gasser_ogden(draft, energy) : mixture(draft, energy);
 }
 
-}  // namespace
-
-std::string febio_card(const Draft& draft) {
-  const std::string& type = draft.material.type;
-  if (has_fibres(draft.material)) return fibres(draft);
-  if (type == "neo_hooke")
-    return material(draft, "Mooney-Rivlin", element("c1", 0.5 * draft.modulus("mu")) + element("c2", 0));
-  if (type == "mooney_rivlin" && mooney_terms(draft.material) > 2)
+std::string febio_polynomial(const Draft& draft, const PolynomialEnergy& energy) {
+  const auto c = [&](const char* name, std::size_t m, std::size_t n) {
+    return element(name, draft.stress * coefficient(energy, m, n));
+  };
+  if (degree(energy) == 1) return material(draft, "Mooney-Rivlin", c("c1", 1, 0) + c("c2", 0, 1));
+  if (degree_in_second(energy) > 0)
     throw CannotExpress{"its Mooney-Rivlin energy has two constants", "fit two constants"};
-  if (type == "mooney_rivlin")
-    return material(draft, "Mooney-Rivlin", element("c1", draft.modulus("c10")) + element("c2", draft.modulus("c01")));
-  if (type == "yeoh")
-    return material(draft, "Yeoh",
-                    element("c1", draft.modulus("c10")) + element("c2", draft.modulus("c20")) +
-                        element("c3", draft.modulus("c30")));
-  if (type == "gent")
-    return material(draft, "Gent", element("G", draft.modulus("mu")) + element("Jm", value_of(draft.material, "Jm")));
-  // ψ = Σ c_i/m_i² (λ̄1^m_i + λ̄2^m_i + λ̄3^m_i − 3): c_i = μ_i α_i
+  if (degree(energy) > 3) throw CannotExpress{"its Yeoh energy ends with the third power", "fit fewer constants"};
+  return material(draft, "Yeoh", c("c1", 1, 0) + c("c2", 2, 0) + c("c3", 3, 0));
+}
+
+// ψ = Σ c_i/m_i² (λ̄1^m_i + λ̄2^m_i + λ̄3^m_i − 3): c_i = μ_i α_i
+std::string febio_ogden(const Draft& draft, const StretchEnergy& energy) {
   std::string terms;
   int number_of_term = 0;
-  for (const auto& term : ogden_terms(draft.material)) {
+  for (const auto& term : energy.terms) {
     ++number_of_term;
     terms += element(fmt::format("c{}", number_of_term), draft.stress * term.mu * term.alpha) +
              element(fmt::format("m{}", number_of_term), term.alpha);
   }
   return material(draft, "Ogden", terms);
+}
+
+}  // namespace
+
+std::string febio_card(const Draft& draft) {
+  const CardEnergy& energy = draft.material.energy;
+  if (const auto* const found = std::get_if<PolynomialEnergy>(&energy)) return febio_polynomial(draft, *found);
+  if (const auto* const found = std::get_if<StretchEnergy>(&energy)) return febio_ogden(draft, *found);
+  if (const auto* const found = std::get_if<FibreEnergy>(&energy)) return fibres(draft, *found);
+  const auto& chains = std::get<LimitedChainEnergy>(energy);  // foams are refused before
+  return material(draft, "Gent", element("G", draft.stress * chains.mu) + element("Jm", chains.Jm));
 }
 
 }  // namespace tunica::cards

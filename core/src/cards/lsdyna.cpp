@@ -54,35 +54,35 @@ std::string head(const Draft& draft, std::string_view keyword) {
 }
 
 // W = Σ C_pq (Ī1 − 3)^p (Ī2 − 3)^q + W_H(J)
-std::string polynomial(const Draft& draft, double c10, double c01, double c20, double c30, double c11 = 0,
-                       double c02 = 0) {
+std::string lsdyna_polynomial(const Draft& draft, const PolynomialEnergy& energy) {
+  const auto C = [&](std::size_t p, std::size_t q) { return draft.stress * coefficient(energy, p, q); };
+  if (degree(energy) > 3) throw CannotExpress{"*MAT_HYPERELASTIC_RUBBER ends with c30", "fit 5 constants"};
+  if (degree(energy) == 3 && degree_in_second(energy) > 0)
+    throw CannotExpress{"*MAT_HYPERELASTIC_RUBBER has no c21, c12 and c03", "fit 5 constants"};
   return head(draft, "HYPERELASTIC_RUBBER") + "$      c10       c01       c11       c20       c02       c30\n" +
-         line(std::array{c10, c01, c11, c20, c02, c30});
+         line(std::array{C(1, 0), C(0, 1), C(1, 1), C(2, 0), C(0, 2), C(3, 0)});
+}
+
+// W = Σ μ_j/α_j (λ̄1^α_j + λ̄2^α_j + λ̄3^α_j − 3)
+std::string lsdyna_ogden(const Draft& draft, const StretchEnergy& energy) {
+  std::vector<double> mu, alpha;
+  for (const auto& term : energy.terms) {
+    mu.push_back(draft.stress * term.mu);
+    alpha.push_back(term.alpha);
+  }
+  return head(draft, "OGDEN_RUBBER") + "$ mu of the terms, then alpha\n" + line(mu) + line(alpha);
 }
 
 }  // namespace
 
 std::string lsdyna_card(const Draft& draft) {
-  const auto& material = draft.material;
-  if (has_fibres(material)) throw CannotExpress{"tunica writes no card of its anisotropic energies (*MAT_295)", ""};
-  if (material.type == "gent")
-    throw CannotExpress{"it has no energy with a limit of extension of the chains", "fit 'yeoh' or 'ogden'"};
-  if (material.type == "neo_hooke") return polynomial(draft, 0.5 * draft.modulus("mu"), 0, 0, 0);
-  if (material.type == "mooney_rivlin") {
-    const std::size_t terms = mooney_terms(material);
-    if (terms == 9) throw CannotExpress{"*MAT_HYPERELASTIC_RUBBER has no c21, c12 and c03", "fit 5 constants"};
-    return polynomial(draft, draft.modulus("c10"), draft.modulus("c01"), terms == 5 ? draft.modulus("c20") : 0, 0,
-                      terms > 2 ? draft.modulus("c11") : 0, terms == 5 ? draft.modulus("c02") : 0);
-  }
-  if (material.type == "yeoh")
-    return polynomial(draft, draft.modulus("c10"), 0, draft.modulus("c20"), draft.modulus("c30"));
-  // W = Σ μ_j/α_j (λ̄1^α_j + λ̄2^α_j + λ̄3^α_j − 3)
-  std::vector<double> mu, alpha;
-  for (const auto& term : ogden_terms(material)) {
-    mu.insert(mu.end(), draft.stress * term.mu);
-    alpha.insert(alpha.end(), term.alpha);
-  }
-  return head(draft, "OGDEN_RUBBER") + "$ mu of the terms, then alpha\n" + line(mu) + line(alpha);
+  if (const auto* const energy = std::get_if<PolynomialEnergy>(&draft.material.energy))
+    return lsdyna_polynomial(draft, *energy);
+  if (const auto* const energy = std::get_if<StretchEnergy>(&draft.material.energy))
+    return lsdyna_ogden(draft, *energy);
+  if (has_fibres(draft.material))
+    throw CannotExpress{"tunica writes no card of its anisotropic energies (*MAT_295)", ""};
+  throw CannotExpress{"it has no energy with a limit of extension of the chains", "fit 'yeoh' or 'ogden'"};
 }
 
 }  // namespace tunica::cards

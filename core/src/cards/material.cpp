@@ -2,121 +2,136 @@
 #include "cards/material.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "text/lists.hpp"
+#include "data/nearest.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cards {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> fibre_models{"hgo", "gho", "holzapfel_2015", "four_fibre"};
+void check_exponents(const Material& material) {
+  const auto* const stretches = std::get_if<StretchEnergy>(&material.energy);
+  if (stretches == nullptr) return;
+  for (std::size_t k = 0; k < stretches->terms.size(); ++k)
+    if (stretches->terms[k].alpha == 0)
+      throw InputError(
+          fmt::format("model '{}': the exponent alpha_{} is 0, and every program divides by it; keep it off 0 by its "
+                      "bounds, or leave the term out",
+                      material.type, k + 1));
+}
 
-/// A family at ±theta counts as two.
-void add_pair(const Material& material, double A, double B, std::vector<FibreFamily>& families) {
-  const double theta = value_of(material, "theta"), k1 = value_of(material, "k1"), k2 = value_of(material, "k2");
-  for (const double angle : {theta, -theta}) families.insert(families.end(), {angle, k1, k2, A, B});
+const CardFormula& formula_of(const plugins::Catalogue& catalogue, const std::string& model) {
+  const auto found = catalogue.models().find(model);
+  if (found != catalogue.models().end() && found->second.factory.card) return found->second.factory.card;
+  std::vector<std::string> known;
+  for (const auto& [name, entry] : catalogue.models())
+    if (entry.factory.card) known.push_back(name);
+  throw InputError(
+      fmt::format("no card is known for the model '{}'. {}", data::excerpt(model), data::suggestion(model, known)));
+}
+
+double stiffness_of(const PolynomialEnergy& energy) {
+  return 2 * (coefficient(energy, 1, 0) + coefficient(energy, 0, 1));
+}
+double stiffness_of(const LimitedChainEnergy& energy) { return energy.mu; }
+double stiffness_of(const StretchEnergy& energy) {
+  double stiffness = 0;
+  for (const auto& term : energy.terms) stiffness += 0.5 * term.mu * term.alpha;
+  return stiffness;
+}
+double stiffness_of(const FoamEnergy& energy) {
+  double stiffness = 0;
+  for (const auto& term : energy.terms) stiffness += term.mu;
+  return stiffness;
+}
+double stiffness_of(const FibreEnergy& energy) {
+  double k1 = 0;
+  for (const auto& family : energy.families) k1 = std::max(k1, family.k1);
+  return energy.mu + 4 * k1;
 }
 
 }  // namespace
 
-bool FibreFamily::without_normal() const { return std::abs(1 - 3 * A - B) < 1e-12; }
-
-double value_of(const Material& material, const std::string& parameter) {
-  const auto found = material.values.find(parameter);
-  if (found == material.values.end()) {
-    std::vector<std::string> given;
-    for (const auto& [name, value] : material.values) given.insert(given.end(), name);
-    throw InputError(fmt::format("model '{}': the parameter '{}' has no value, only {}; give every parameter one",
-                                 material.type, parameter, given.empty() ? "nothing" : text::joined(given)));
-  }
-  if (!std::isfinite(found->second))
-    throw InputError(fmt::format("model '{}': found {} for the parameter '{}', expected a finite number; give it one",
-                                 material.type, found->second, parameter));
-  return found->second;
-}
-
-std::vector<OgdenTerm> ogden_terms(const Material& material) {
-  std::vector<OgdenTerm> terms;
-  for (std::size_t k = 1; k == 1 || material.values.contains(fmt::format("mu_{}", k)); ++k) {
-    terms.insert(terms.end(),
-                 {value_of(material, fmt::format("mu_{}", k)), value_of(material, fmt::format("alpha_{}", k))});
-    if (terms.back().alpha == 0)
+Material material_of(const plugins::Catalogue& catalogue, const Ingredient& model,
+                     std::span<const Ingredient> mechanisms, std::span<const double> values) {
+  Material material{.type = model.type};
+  const CardFormula& formula = formula_of(catalogue, model.type);
+  for (std::size_t k = mechanisms.size(); k-- > 0;) {
+    const MechanismFactory& mechanism = catalogue.mechanisms().find(mechanisms[k].type)->second.factory;
+    if (!mechanism.card_volume || k > 0)
       throw InputError(
-          fmt::format("model '{}': the exponent alpha_{} is 0, and every program divides by it; keep it off 0 by its "
-                      "bounds, or leave the term out",
-                      material.type, k));
+          fmt::format("the mechanism '{}' changes the model '{}', and no card has it; fit and export a model without "
+                      "it, or one that contains it",
+                      mechanism.id, model.type));
+    const std::size_t own = mechanism.parameters_with(mechanisms[k].options).size();
+    material.volume = mechanism.card_volume(mechanisms[k].options, values.last(own));
+    values = values.first(values.size() - own);
   }
-  return terms;
+  material.energy = formula(model.options, values);
+  check_exponents(material);
+  return material;
 }
 
-bool is_foam(const Material& material) { return material.type == "hyperfoam" || material.type == "blatz_ko"; }
+bool is_foam(const Material& material) { return std::holds_alternative<FoamEnergy>(material.energy); }
+bool has_fibres(const Material& material) { return std::holds_alternative<FibreEnergy>(material.energy); }
 
-std::vector<FoamTerm> foam_terms(const Material& material) {
-  if (material.type == "blatz_ko") {
-    const double mu = value_of(material, "mu"), f = value_of(material, "f"), nu = value_of(material, "nu");
-    std::vector<FoamTerm> terms;
-    if (f != 0) terms.push_back({mu * f, 2, nu});
-    if (f != 1) terms.push_back({mu * (1 - f), -2, nu});
-    return terms;
-  }
-  std::vector<FoamTerm> terms;
-  const bool shared = material.values.contains("nu");
-  for (const OgdenTerm& term : ogden_terms(material))
-    terms.push_back({term.mu, term.alpha, value_of(material, shared ? "nu" : fmt::format("nu_{}", terms.size() + 1))});
-  return terms;
+bool consists_of(const PolynomialEnergy& energy, std::initializer_list<Powers> terms) {
+  return energy.terms.size() == terms.size() && std::ranges::all_of(terms, [&](const Powers& at) {
+           return std::ranges::any_of(energy.terms, [&](const auto& term) { return term.m == at.m && term.n == at.n; });
+         });
 }
 
-std::size_t mooney_terms(const Material& material) {
-  const auto has = [&](const char* name) { return material.values.contains(name); };
-  return has("c30") ? 9 : has("c20") ? 5 : has("c11") ? 3 : 2;
+double coefficient(const PolynomialEnergy& energy, std::size_t m, std::size_t n) {
+  double sum = 0;
+  for (const auto& term : energy.terms)
+    if (term.m == m && term.n == n) sum += term.coefficient;
+  return sum;
 }
 
-bool has_fibres(const Material& material) {
-  return std::find(fibre_models.begin(), fibre_models.end(), material.type) != fibre_models.end();
+std::size_t degree(const PolynomialEnergy& energy) {
+  std::size_t most = 0;
+  for (const auto& term : energy.terms) most = std::max(most, term.m + term.n);
+  return most;
 }
 
-FibreEnergy fibre_energy(const Material& material) {
-  FibreEnergy energy{value_of(material, "mu"), {}};
-  if (material.type == "gho") {
-    const double kappa = value_of(material, "kappa");
-    add_pair(material, kappa, 1 - 3 * kappa, energy.families);
-  } else if (material.type == "holzapfel_2015") {
-    add_pair(material, value_of(material, "A"), value_of(material, "B"), energy.families);
-  } else {
-    add_pair(material, 0, 1, energy.families);
+std::size_t degree_in_second(const PolynomialEnergy& energy) {
+  std::size_t most = 0;
+  for (const auto& term : energy.terms) most = std::max(most, term.n);
+  return most;
+}
+
+bool without_normal(const FibreFamily& family) { return std::abs(1 - 3 * family.A - family.B) < 1e-12; }
+
+bool alike(const FibreEnergy& energy) {
+  const FibreFamily& first = energy.families.front();
+  return std::ranges::all_of(energy.families, [&](const FibreFamily& one) {
+    return one.k1 == first.k1 && one.k2 == first.k2 && one.A == first.A && one.B == first.B;
+  });
+}
+
+bool is_pair(const FibreEnergy& energy) {
+  return energy.families.size() == 2 && alike(energy) && energy.families[0].angle == -energy.families[1].angle;
+}
+
+std::string_view switch_words(const FibreEnergy& energy) {
+  switch (energy.active) {
+    case EnergyPart::Active::always:
+      return "none";
+    case EnergyPart::Active::argument_positive:
+      return "strain";
+    case EnergyPart::Active::fibre_stretched:
+      return "stretch";
   }
-  if (material.type == "four_fibre") {
-    energy.families.insert(energy.families.end(), {0, value_of(material, "k1_axial"), value_of(material, "k2_axial")});
-    energy.families.insert(energy.families.end(),
-                           {90, value_of(material, "k1_circumferential"), value_of(material, "k2_circumferential")});
-  }
-  return energy;
+  return "";
 }
 
 double stiffness_at_rest(const Material& material) {
-  double stiffness = 0;
-  if (has_fibres(material)) {
-    const FibreEnergy energy = fibre_energy(material);
-    double k1 = 0;
-    for (const auto& family : energy.families) k1 = std::max(k1, family.k1);
-    stiffness = energy.mu + 4 * k1;
-  } else if (material.type == "mooney_rivlin") {
-    stiffness = 2 * (value_of(material, "c10") + value_of(material, "c01"));
-  } else if (material.type == "yeoh") {
-    stiffness = 2 * value_of(material, "c10");
-  } else if (is_foam(material)) {
-    for (const auto& term : foam_terms(material)) stiffness += term.mu;
-  } else if (material.type == "ogden") {
-    for (const auto& term : ogden_terms(material)) stiffness += 0.5 * term.mu * term.alpha;
-  } else {
-    stiffness = value_of(material, "mu");
-  }
+  const double stiffness = std::visit([](const auto& energy) { return stiffness_of(energy); }, material.energy);
   if (stiffness > 0) return stiffness;
   throw InputError(
       fmt::format("model '{}': found a shear modulus of {:g} kPa at rest, expected one above 0; check the parameters",

@@ -19,8 +19,6 @@ struct Draft {
   [[nodiscard]] double d1() const { return bulk > 0 ? 2 / bulk : 0; }
   /// In the units of the card; "" where none is given. Throws InputError where it is not positive.
   [[nodiscard]] std::string density() const;
-  /// A parameter of the dimension stress in the units of the card.
-  [[nodiscard]] double modulus(const std::string& parameter) const;
 };
 
 /// What a writer throws where its program cannot express the model. write_card() adds which programs can.
@@ -37,7 +35,7 @@ std::string joined_lines(std::span<const std::string> values);
 std::string hyperelastic_keyword(const Draft& draft, std::size_t most_ogden_terms);
 
 /// *HYPERFOAM of these terms in the keywords that Abaqus and CalculiX share: μ and α of every term, then every ν.
-std::string hyperfoam_keyword(const Draft& draft, std::span<const FoamTerm> terms);
+std::string hyperfoam_keyword(const Draft& draft, const FoamEnergy& foam);
 
 std::string calculix_card(const Draft& draft);
 std::string abaqus_card(const Draft& draft);

@@ -81,11 +81,9 @@ const json& run_named(const json& result, const std::string& label) {
 void refine(const assembly::Assembly& assembly, const plugins::Catalogue& catalogue, const std::vector<double>& free,
             const plugins::LimitedWork& work, search::Neighbourhood& around) {
   constexpr double resolved = 1e-6;  // of the objective
-  const auto found = catalogue.optimizers().find("ceres_lm");
-  if (found == catalogue.optimizers().end() || !around.status.ok() || assembly.layout().has_costly_tests ||
-      work.is_over())
-    return;
-  Options options = plugins::default_options(found->second.factory.options);
+  const auto* const refiner = catalogue.refiner();
+  if (refiner == nullptr || !around.status.ok() || assembly.layout().has_costly_tests || work.is_over()) return;
+  Options options = plugins::default_options(refiner->factory.options);
   options.set("starts", std::int64_t{1});
   uncertainty::RefitObjective target;
   target.residual_count = assembly.layout().residual_count;
@@ -97,7 +95,7 @@ void refine(const assembly::Assembly& assembly, const plugins::Catalogue& catalo
   };
   const auto workspace = assembly.evaluator().make_workspace();
   const double lowest = around.better ? around.lowest->objective : around.objective;
-  auto made = uncertainty::refit(assembly, target, {&found->second, std::move(options)},
+  auto made = uncertainty::refit(assembly, target, {refiner, std::move(options)},
                                  around.better ? around.lowest->parameters : free, std::nullopt, 0, *workspace);
   if (!made.status.ok() || !(lowest - made.objective > resolved * std::abs(lowest) + 1e-12)) return;
   around.better = true;

@@ -26,17 +26,19 @@ namespace {
 uncertainty::LocalOptimizer local_optimizer(const experiment::Experiment& experiment,
                                             const plugins::Catalogue& catalogue) {
   const std::string& named = experiment.analysis.optimizer;
-  const std::string type = named.empty() ? "ceres_lm" : experiment.optimizer(named).type;
-  const auto found = catalogue.optimizers().find(type);
-  if (found == catalogue.optimizers().end())
+  if (!named.empty()) {
+    const experiment::OptimizerEntry& entry = experiment.optimizer(named);
+    return {&catalogue.optimizers().find(entry.type)->second, entry.options};
+  }
+  const auto* const refiner = catalogue.refiner();
+  if (refiner == nullptr)
     throw InputError(
-        fmt::format("{} (/analysis): refits need the optimizer type '{}', which no plugin provides; name another of "
-                    "\"optimizers\" in analysis.optimizer",
-                    experiment.file.string(), type));
-  if (!named.empty()) return {&found->second, experiment.optimizer(named).options};
-  Options options = plugins::default_options(found->second.factory.options);
+        fmt::format("{} (/analysis): refits need an optimizer that goes down from a start, and no plugin provides one; "
+                    "name one of \"optimizers\" in analysis.optimizer",
+                    experiment.file.string()));
+  Options options = plugins::default_options(refiner->factory.options);
   options.set("starts", std::int64_t{1});
-  return {&found->second, std::move(options)};
+  return {refiner, std::move(options)};
 }
 
 std::vector<std::size_t> wanted(const experiment::Analysis& analysis, const assembly::Assembly& assembly) {

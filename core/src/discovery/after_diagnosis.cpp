@@ -19,7 +19,7 @@ std::optional<Discovery> after(const diagnosis::Diagnosis& d, const experiment::
   if (d.explanation.verdict != Verdict::unknown || !d.analysis.alarm.raised) return std::nullopt;
   if (d.request.model.empty() || base.models().count() != 1) return std::nullopt;
   if (!d.request.mechanisms.empty()) return std::nullopt;  // the catalogue was not asked
-  if (!catalogue.models().contains("composed")) return std::nullopt;
+  if (!catalogue.term_model()) return std::nullopt;
   Request request = request_of(experiment);
   request.model = d.request.model;
   request.from_nothing = false;

@@ -48,8 +48,6 @@ Json term_json(const Kind& kind, const std::string& name) {
   return term;
 }
 
-std::string joiner(const Subject& subject) { return subject.from_nothing ? "_" : "."; }
-
 }  // namespace
 
 std::vector<std::string> first_terms(bool changes_volume) {
@@ -58,7 +56,7 @@ std::vector<std::string> first_terms(bool changes_volume) {
 }
 
 experiment::Experiment with_first_terms(experiment::Experiment experiment, const std::string& model,
-                                        bool changes_volume) {
+                                        bool changes_volume, const plugins::Catalogue::Entry<ModelFactory>& writer) {
   Json terms = Json::array();
   for (const std::string& name : first_terms(changes_volume)) {
     const auto line = name.find('_');
@@ -66,7 +64,7 @@ experiment::Experiment with_first_terms(experiment::Experiment experiment, const
   }
   for (auto& entry : experiment.models) {
     if (entry.name != model) continue;
-    entry.type = "composed";
+    entry.type = writer.factory.type;
     entry.options = {};
     entry.options.set("terms", terms.dump());
     entry.parameters.clear();
@@ -75,14 +73,12 @@ experiment::Experiment with_first_terms(experiment::Experiment experiment, const
   return experiment;
 }
 
-std::size_t index_of(const assembly::Assembly& assembly, const std::string& name) {
-  const auto& parameters = assembly.layout().parameters;
-  for (std::size_t j = 0; j < parameters.size(); ++j) {
-    const std::string& known = parameters[j].name;
-    if (known == name || known.ends_with("." + name))
-      return j;  // behind the name of the model, where there are several
-  }
-  throw std::logic_error(fmt::format("no free parameter is called '{}'", name));
+std::size_t index_of(const assembly::Assembly& assembly, const Subject& subject, const std::string& term,
+                     const std::string& name) {
+  const auto id = subject.from_nothing ? assembly::of_model(subject.model, "", term + "_" + name)
+                                       : assembly::of_model(subject.model, term, name);
+  if (const auto index = assembly.layout().index_of(id)) return *index;
+  throw std::logic_error(fmt::format("the term '{}' has no free parameter '{}'", term, name));
 }
 
 BoundSet::BoundSet(const Subject& subject, const std::vector<KindPointer>& kinds) : experiment_(subject.experiment) {
@@ -104,24 +100,23 @@ BoundSet::BoundSet(const Subject& subject, const std::vector<KindPointer>& kinds
       list.push_back(term_json(*kind, term.name));
       set_ranges(*kind, term.name + "_", model.parameters);
     } else {
-      experiment::MechanismEntry entry{"added_term", kind->options(), {}, term.name};
+      experiment::MechanismEntry entry{subject.catalogue.term_mechanism()->factory.id, kind->options(), {}, term.name};
       set_ranges(*kind, "", entry.parameters);
       model.mechanisms.push_back(std::move(entry));
     }
     terms_.push_back(std::move(term));
   }
   if (subject.from_nothing) {
-    model.type = "composed";
+    model.type = subject.catalogue.term_model()->factory.type;
     model.options = {};
     model.options.set("terms", list.dump());
   }
   assembly_ = std::make_unique<assembly::Assembly>(experiment_, subject.run, subject.catalogue);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const std::string prefix = terms_[k].name + joiner(subject);
-    terms_[k].amplitude = index_of(*assembly_, prefix + kinds[k]->amplitude());
-    for (const std::string& height : kinds[k]->heights)
-      terms_[k].heights.push_back(index_of(*assembly_, prefix + height));
-    for (const Shape& shape : kinds[k]->shapes) terms_[k].shapes.push_back(index_of(*assembly_, prefix + shape.name));
+    const auto index = [&](const std::string& name) { return index_of(*assembly_, subject, terms_[k].name, name); };
+    terms_[k].amplitude = index(kinds[k]->amplitude());
+    for (const std::string& height : kinds[k]->heights) terms_[k].heights.push_back(index(height));
+    for (const Shape& shape : kinds[k]->shapes) terms_[k].shapes.push_back(index(shape.name));
   }
 }
 

@@ -174,7 +174,8 @@ Discovery discover(const experiment::Experiment& experiment, const Request& requ
   const bool directions = has_directions(experiment, request.model, catalogue);
   experiment::Experiment measured = stand_ins.cheaper(experiment::measured_only(experiment));
   const bool volume = request.from_nothing && changes_volume(measured, request.model, catalogue);
-  if (request.from_nothing) measured = with_first_terms(std::move(measured), request.model, volume);
+  if (request.from_nothing)
+    measured = with_first_terms(std::move(measured), request.model, volume, *catalogue.term_model());
   const diagnosis::Request of_analysis = analysis_request(request);
   const diagnosis::Inquiry inquiry{measured, of_analysis, catalogue, progress};
   diagnosis::Analysis analysis = request.from_nothing ? diagnosis::analyse(inquiry, {}) : screened(inquiry);

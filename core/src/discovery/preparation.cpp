@@ -20,10 +20,10 @@ void check(const Request& request, const plugins::Catalogue& catalogue) {
     throw InputError(
         "discovery: every test names the models of its layers, so that it is open which of them gets the terms. Name "
         "one in \"discovery\": {\"model\": …}");
-  if (!catalogue.models().contains("composed"))
+  if (!catalogue.term_model() || !catalogue.term_mechanism())
     throw InputError(
-        "discovery: no loaded plugin provides the model 'composed', which terms are written in. Give "
-        "--plugin-path a folder that holds it");
+        "discovery: no loaded plugin provides the model that terms are written in, or the mechanism that adds them. "
+        "Give --plugin-path a folder that holds 'composed'");
 }
 
 void check_states(const Request& request, const experiment::Experiment& experiment) {

@@ -21,10 +21,10 @@ struct Subject {
 
 /// The names of the kinds that a search from nothing is analysed with: a neo-Hookean term, and one of the volume where
 /// the material changes it.
-std::vector<std::string> first_terms(bool changes_volume);
+std::vector<std::string> first_terms(bool changes_volume, const plugins::Catalogue::Entry<ModelFactory>& writer);
 
-/// The experiment in which the model is made of these terms.
+/// The experiment in which the model is made of these terms, by the model that writes terms.
 experiment::Experiment with_first_terms(experiment::Experiment experiment, const std::string& model,
-                                        bool changes_volume);
+                                        bool changes_volume, const plugins::Catalogue::Entry<ModelFactory>& writer);
 
 }  // namespace tunica::discovery

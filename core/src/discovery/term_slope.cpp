@@ -37,7 +37,7 @@ std::unique_ptr<Model> alone(const Subject& subject, const Kind& kind) {
   if (!kind.knots.empty()) term["knots"] = kind.knots;
   Options options;
   options.set("terms", nlohmann::ordered_json::array({term}).dump());
-  return plugins::create(subject.catalogue.models().at("composed"), options);
+  return plugins::create(*subject.catalogue.term_model(), options);
 }
 
 std::vector<std::size_t> parameters_of(const BoundTerm& term) {

@@ -10,6 +10,7 @@
 #include "experiment/limits.hpp"
 #include "experiment/parse.hpp"
 #include "experiment/reader.hpp"
+#include "plugins/default_options.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::experiment {
@@ -71,8 +72,12 @@ Experiment read_experiment(const std::filesystem::path& file, const plugins::Cat
 namespace {
 
 std::vector<OptimizerEntry> default_optimizers(const plugins::Catalogue& catalogue) {
-  const JsonDocument document("the default optimizer", R"({"lm": {"type": "ceres_lm"}})");
-  return read_optimizers(Node(document), catalogue);
+  const auto* const refiner = catalogue.refiner();
+  if (refiner == nullptr)
+    throw InputError(
+        "no loaded plugin provides an optimizer that refines a fit; give the experiment \"optimizers\", or "
+        "--plugin-path a folder that holds 'ceres_lm'");
+  return {{"lm", refiner->factory.type, plugins::default_options(refiner->factory.options)}};
 }
 
 /// A run of every model over all tests; one alone where every test names its models in layers.

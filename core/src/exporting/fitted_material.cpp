@@ -10,7 +10,10 @@
 
 #include "data/nearest.hpp"
 #include "execution/files.hpp"
+#include "experiment/json_document.hpp"
+#include "experiment/reader.hpp"
 #include "exporting/remarks.hpp"
+#include "plugins/guarded.hpp"
 #include "report/pieces.hpp"
 #include "text/escaped.hpp"
 #include "text/lists.hpp"
@@ -94,15 +97,49 @@ std::string chosen_model(const std::vector<std::string>& models, const std::stri
   return wanted;
 }
 
-/// "mu" for the model's parameter "media.mu"; "" for one of a test or of another model.
-std::string own_name(const std::string& parameter, const std::string& model, bool several) {
-  if (!several) return parameter.find('.') == std::string::npos ? parameter : "";
-  return parameter.starts_with(model + '.') ? parameter.substr(model.size() + 1) : "";
+/// The model's parameters by their own names: "mu" for "media.mu".
+Parameters own_parameters(const Json& run, const std::string& model, bool several) {
+  const std::string prefix = several ? model + '.' : "";
+  Parameters parameters;
+  for (const Json& group : {member(member(run, "best"), "parameters"), member(run, "fixed")})
+    for (const auto& [name, entry] : group.items())
+      if (name.starts_with(prefix)) parameters.emplace_back(name.substr(prefix.size()), entry);
+  return parameters;
+}
+
+experiment::ModelEntry model_entry(const std::filesystem::path& input, const std::string& name,
+                                   const plugins::Catalogue& catalogue) {
+  const experiment::JsonDocument document(input, execution::read_text(input));
+  std::vector<experiment::SharedParameter> shared;
+  return experiment::read_model(name, experiment::Node(document).require("models", "an experiment").require(name, ""),
+                                catalogue, shared);
+}
+
+/// Of the model, then of its mechanisms, as cards::material_of() takes them.
+std::vector<double> values_of(const experiment::ModelEntry& model, const plugins::Catalogue& catalogue,
+                              const Parameters& parameters) {
+  std::vector<std::string> names;
+  const auto made = plugins::create(catalogue.models().find(model.type)->second, model.options);
+  for (const Parameter& parameter : made->describe().parameters) names.push_back(parameter.name);
+  for (const auto& mechanism : model.mechanisms)
+    for (const Parameter& parameter :
+         catalogue.mechanisms().find(mechanism.type)->second.factory.parameters_with(mechanism.options))
+      names.push_back(mechanism.name() + '.' + parameter.name);
+  std::vector<double> values;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(parameters, name, &Parameters::value_type::first);
+    const double value = found == parameters.end() ? NAN : report::number(found->second, "value");
+    if (!std::isfinite(value))
+      throw InputError(
+          fmt::format("model '{}': the parameter '{}' has no finite value; run it again", model.name, name));
+    values.push_back(value);
+  }
+  return values;
 }
 
 }  // namespace
 
-FittedMaterial fitted_material(const ExportRequest& request) {
+FittedMaterial fitted_material(const ExportRequest& request, const plugins::Catalogue& catalogue) {
   std::filesystem::path folder = request.result;
   if (!std::filesystem::is_directory(folder)) {
     if (folder.filename() != "result.json" || !std::filesystem::exists(folder))
@@ -123,40 +160,16 @@ FittedMaterial fitted_material(const ExportRequest& request) {
   const Json& models = member(input, "models");
   const auto names = models_of(run, models);
   fitted.name = chosen_model(names, request.model, fitted.run, file);
-  const Json& model = member(models, fitted.name);
-  bool compressible = false;
-  for (const Json& mechanism : list(model, "mechanisms")) {
-    const std::string id = mechanism.is_string() ? mechanism.get<std::string>() : word(mechanism, "type");
-    const bool isochoric = !mechanism.is_string() && word(mechanism, "invariants") == "isochoric";
-    compressible = id == "compressibility" && isochoric;
-    if (id == "compressibility" && !compressible)
-      throw InputError(fmt::format(
-          "{}: the mechanism 'compressibility' of the model '{}' has full invariants, and the cards' materials "
-          "have isochoric ones; fit it with \"invariants\": \"isochoric\" and the \"law\" of the program: "
-          "\"logarithmic\" for "
-          "FEBio, else \"quadratic\"",
-          file, fitted.name));
-    if (!compressible)
-      throw InputError(fmt::format(
-          "{}: the mechanism '{}' changes the model '{}', and no card has it; fit and export a model without "
-          "it, or one that contains it",
-          file, id, fitted.name));
-    const std::string law = word(mechanism, "law");
-    fitted.material.volume_law = law.empty() ? "logarithmic" : law;
+  const experiment::ModelEntry model = model_entry(folder / "input.json", fitted.name, catalogue);
+  const Parameters parameters = own_parameters(run, fitted.name, names.size() > 1);
+  std::vector<cards::Ingredient> mechanisms;
+  for (const auto& mechanism : model.mechanisms) mechanisms.push_back({mechanism.type, mechanism.options});
+  try {
+    fitted.material =
+        cards::material_of(catalogue, {model.type, model.options}, mechanisms, values_of(model, catalogue, parameters));
+  } catch (const InputError& problem) {
+    throw InputError(fmt::format("{}: {}", file, problem.what()));
   }
-  fitted.material.type = word(model, "type");
-  if (const std::string chosen = word(model, "fibre_switch"); !chosen.empty()) fitted.material.fibre_switch = chosen;
-  Parameters parameters;
-  for (const Json& group : {member(member(run, "best"), "parameters"), member(run, "fixed")})
-    for (const auto& [name, entry] : group.items())
-      if (compressible && name.ends_with("compressibility.compliance")) {
-        const double compliance = report::number(entry, "value");
-        fitted.material.bulk = compliance > 0 ? 1 / compliance : 0;
-        parameters.emplace_back("compressibility.compliance", entry);
-      } else if (const std::string own = own_name(name, fitted.name, names.size() > 1); !own.empty()) {
-        fitted.material.values[own] = report::number(entry, "value");
-        parameters.emplace_back(own, entry);
-      }
   fitted.remarks = remarks({folder, result, run, fitted.name, fitted.material.type, parameters});
   return fitted;
 }

@@ -27,8 +27,8 @@ struct FittedMaterial {
   std::vector<std::string> remarks;
 };
 
-/// Throws InputError where there is no such result, run or model, and where mechanisms change the model, because no
-/// card has them.
-FittedMaterial fitted_material(const ExportRequest& request);
+/// Throws InputError where there is no such result, run or model, where no plugin provides it, and where no card has it
+/// or the mechanisms that change it.
+FittedMaterial fitted_material(const ExportRequest& request, const plugins::Catalogue& catalogue);
 
 }  // namespace tunica::exporting

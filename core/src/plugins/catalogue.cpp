@@ -25,6 +25,14 @@ bool is_plain_identifier(std::string_view name) {
   });
 }
 
+/// By name, so that the order of loading does not matter.
+template <class Entries, class Predicate>
+const typename Entries::mapped_type* first_with(const Entries& entries, Predicate has_role) {
+  for (const auto& [name, entry] : entries)
+    if (has_role(entry.factory)) return &entry;
+  return nullptr;
+}
+
 template <class Factory>
 const std::string& name_of(const Factory& factory) {
   return factory.type;
@@ -124,6 +132,18 @@ void Catalogue::commit(Registration&& registration, const std::string& plugin) {
   tests_.merge(tests);
   optimizers_.merge(optimizers);
   mechanisms_.merge(mechanisms);
+}
+
+const Catalogue::Entry<ModelFactory>* Catalogue::term_model() const {
+  return first_with(models_, [](const ModelFactory& model) { return model.writes_terms; });
+}
+
+const Catalogue::Entry<MechanismFactory>* Catalogue::term_mechanism() const {
+  return first_with(mechanisms_, [](const MechanismFactory& mechanism) { return mechanism.writes_terms; });
+}
+
+const Catalogue::Entry<OptimizerFactory>* Catalogue::refiner() const {
+  return first_with(optimizers_, [](const OptimizerFactory& optimizer) { return optimizer.refines; });
 }
 
 }  // namespace tunica::plugins

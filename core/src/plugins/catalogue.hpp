@@ -25,6 +25,14 @@ class Catalogue {
   [[nodiscard]] const Entries<OptimizerFactory>& optimizers() const { return optimizers_; }
   [[nodiscard]] const Entries<MechanismFactory>& mechanisms() const { return mechanisms_; }
 
+  // Roles that a plugin's author gives. The core asks for them instead of names; nullptr: nobody has it.
+  /// The model that discovery writes terms in, ModelFactory::writes_terms.
+  [[nodiscard]] const Entry<ModelFactory>* term_model() const;
+  /// The mechanism by which it adds a term to another model, MechanismFactory::writes_terms.
+  [[nodiscard]] const Entry<MechanismFactory>* term_mechanism() const;
+  /// The optimizer that refines a fit, OptimizerFactory::refines.
+  [[nodiscard]] const Entry<OptimizerFactory>* refiner() const;
+
   /// Takes over what one plugin has registered, all or nothing; throws std::invalid_argument on a name that is
   /// taken (by which plugin is in the message) or not a plain identifier, and on a default outside its own bounds. A
   /// model whose parameters begin outside their bounds is refused with an InputError when it is made.

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "corrected.hpp"
 #include "stress_measure.hpp"
 #include "tunica/plugin.hpp"
@@ -91,6 +93,10 @@ std::vector<MechanismFactory> factories() {
   length.look_alikes = {"force_scale_error", "specimen_misalignment", "force_offset"};
   length.isolated_by = "markers on the unloaded strip, or a second clamping";
   length.reference = "Sacks, J. Elasticity 61:199 (2000)";
+  length.calibration = [](const MechanismFactory::Misrecorded& at) {
+    return fmt::format("the true {}stretches of {} are {:.4g} times the recorded ones", at.direction, at.tests,
+                       1 + at.amplitude);
+  };
   length.wrap_test = [id = length.id, amplitude = length.parameters.front()](std::unique_ptr<Test> base,
                                                                              const Options&) -> std::unique_ptr<Test> {
     const Where where = of_strip(id, *base);

@@ -2,7 +2,10 @@
 // Errors of what is read: load cells and cameras not zeroed or with another gain than they were calibrated to, readings
 // that drift, and readings that are wrong at some rows. Of strips measured = true + c or (1 + γ) true, of tubes true =
 // measured + c or (1 + γ) measured.
+#include <functional>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "target.hpp"
 #include "tunica/plugin.hpp"
@@ -73,27 +76,43 @@ MechanismFactory by_range(MechanismFactory mechanism) {
   return mechanism;
 }
 
+/// What a known weight on the load cell, or a reading without specimen, settles.
+MechanismFactory settled(MechanismFactory mechanism,
+                         std::function<std::string(const MechanismFactory::Misrecorded&)> words) {
+  mechanism.calibration = std::move(words);
+  return mechanism;
+}
+
 std::vector<MechanismFactory> of_known_channels() {
   const std::string load_cells = "ISO 7500-1:2018, Calibration and verification of static uniaxial testing machines";
   const std::string tube_rigs = "Humphrey, Kang, Sakarda, Anjanappa, Ann. Biomed. Eng. 21:33 (1993)";
   const std::string not_zeroed = "The load cell was not zeroed: every force reading carries the same error.";
   return {
-      reading(by_range(described("force_offset", {"uniaxial"},
-                                 {"value", "kPa", 0, -50, 50, Scale::linear,
-                                  "Stress the load cell shows at no load, in the data's measure.", ""},
-                                 10,
-                                 {not_zeroed,
-                                  {"outliers", "reference_length_error", "active_tone"},
-                                  "a reading of the load cell without specimen",
-                                  load_cells})),
-              {"stress"}, shifted),
-      reading(described("force_scale_error", {"uniaxial"},
-                        {"gain", "1", 0, -0.5, 1, Scale::linear, "Measured over true stress, less one.", ""}, 0.2,
-                        {"The load cell's gain, or the area its force was divided by, is wrong.",
-                         {"reference_length_error", "specimen_misalignment", "permanent_set"},
-                         "a known weight on the load cell",
-                         load_cells}),
-              {"stress"}, scaled),
+      settled(reading(by_range(described("force_offset", {"uniaxial"},
+                                         {"value", "kPa", 0, -50, 50, Scale::linear,
+                                          "Stress the load cell shows at no load, in the data's measure.", ""},
+                                         10,
+                                         {not_zeroed,
+                                          {"outliers", "reference_length_error", "active_tone"},
+                                          "a reading of the load cell without specimen",
+                                          load_cells})),
+                      {"stress"}, shifted),
+              [](const MechanismFactory::Misrecorded& at) {
+                return fmt::format("the {}load cell of {} shows {:.3g} kPa at no load", at.direction, at.tests,
+                                   at.amplitude);
+              }),
+      settled(
+          reading(described("force_scale_error", {"uniaxial"},
+                            {"gain", "1", 0, -0.5, 1, Scale::linear, "Measured over true stress, less one.", ""}, 0.2,
+                            {"The load cell's gain, or the area its force was divided by, is wrong.",
+                             {"reference_length_error", "specimen_misalignment", "permanent_set"},
+                             "a known weight on the load cell",
+                             load_cells}),
+                  {"stress"}, scaled),
+          [](const MechanismFactory::Misrecorded& at) {
+            return fmt::format("the {}stresses of {} are {:.4g} times the true ones", at.direction, at.tests,
+                               1 + at.amplitude);
+          }),
       reading(
           by_range(described("axial_force_offset", tubes,
                              {"value", "mN", 0, -1000, 1000, Scale::linear, "True less measured axial force.", ""}, 100,

@@ -160,6 +160,14 @@ MechanismFactory factory() {
       Option::choice(
           "law", {"logarithmic", "quadratic", "simo", "ogden"}, "logarithmic",
           "Energy of the volume ratio J: K/2 (ln J)^2, K/2 (J-1)^2, K/4 (J^2-1-2 ln J), or Ogden's with beta = 9.")};
+  mechanism.card_volume = [](const Options& options, std::span<const double> p) -> CardVolume {
+    if (options.text("invariants") != "isochoric")
+      throw InputError(
+          "the mechanism 'compressibility' has full invariants, and the cards' materials have isochoric ones; fit it "
+          "with \"invariants\": \"isochoric\" and the \"law\" of the program: \"logarithmic\" for FEBio, else "
+          "\"quadratic\"");
+    return {options.text("law"), p[0] > 0 ? 1 / p[0] : 0};
+  };
   mechanism.wrap_model = [own](std::unique_ptr<Model> base, const Options& options) -> std::unique_ptr<Model> {
     const ModelDescription& model = base->describe();
     if (model.compressible)

@@ -3,8 +3,11 @@
 // a zero that was taken under load, gauge lengths, offsets and gains of a sheet, and a channel that comes late.
 //
 // Of strips and sheets the force is right, and the stress was computed from it and the recorded stretch.
+#include <cmath>
 #include <optional>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "../abscissa_errors/corrected.hpp"
 #include "../abscissa_errors/stress_measure.hpp"
@@ -17,6 +20,7 @@
 namespace tunica::record_errors {
 namespace {
 
+using Misrecorded = MechanismFactory::Misrecorded;
 const std::vector<std::string> strips{"uniaxial"}, sheets{"biaxial"};
 
 /// A stretch, and the stress along it.
@@ -111,6 +115,11 @@ MechanismFactory displacement_offset() {
     const Direction at = direction_of(id, *base, stress_of(id, base->rows()));
     return abscissa_errors::corrected(std::move(base), amplitude, moved, {at.abscissa, at.channel, at.power});
   };
+  mechanism.calibration = [](const Misrecorded& at) {
+    return fmt::format("the true stretches of {} are {:.3g} {} than recorded", at.tests, std::abs(at.amplitude),
+                       at.amplitude < 0 ? "smaller" : "larger");
+  };
+  mechanism.question_only = true;
   return mechanism;
 }
 
@@ -125,15 +134,22 @@ MechanismFactory by_force(MechanismFactory mechanism, Recorder recorder) {
 }
 
 MechanismFactory zeroed_at_preload() {
-  return by_force(described("zeroed_at_preload", strips,
-                            {"stretch", "1", 0, 0, 0.5, Scale::linear,
-                             "Stretch at which force and length were zeroed, less 1.", ""},
-                            0, 0.2,
-                            {"Force and length were both zeroed after the specimen had been loaded a little.",
-                             {"reference_length_error", "displacement_offset", "force_offset"},
-                             "the preload, and the length without it",
-                             "Carew, Garg, Barber, Vesely, Ann. Biomed. Eng. 32:548 (2004)"}),
-                  zeroed_under_load);
+  MechanismFactory mechanism = by_force(
+      described(
+          "zeroed_at_preload", strips,
+          {"stretch", "1", 0, 0, 0.5, Scale::linear, "Stretch at which force and length were zeroed, less 1.", ""}, 0,
+          0.2,
+          {"Force and length were both zeroed after the specimen had been loaded a little.",
+           {"reference_length_error", "displacement_offset", "force_offset"},
+           "the preload, and the length without it",
+           "Carew, Garg, Barber, Vesely, Ann. Biomed. Eng. 32:548 (2004)"}),
+      zeroed_under_load);
+  mechanism.calibration = [](const Misrecorded& at) {
+    return fmt::format("force and length of {} were zeroed under load, at a stretch of {:.4g}", at.tests,
+                       1 + at.amplitude);
+  };
+  mechanism.question_only = true;
+  return mechanism;
 }
 
 MechanismFactory machine_compliance() {
@@ -148,6 +164,10 @@ MechanismFactory machine_compliance() {
                  "Kalidindi, Abusafieh, El-Danaf, Exp. Mech. 37:210 (1997)"}),
       given_way);
   mechanism.plausible_effect = 0.5;
+  mechanism.calibration = [](const Misrecorded& at) {
+    return fmt::format("frame and grips of {} take a stretch of {:.3g} for each kPa", at.tests, at.amplitude);
+  };
+  mechanism.question_only = true;
   return mechanism;
 }
 
@@ -175,6 +195,12 @@ MechanismFactory sheet_prestretch() {
     return abscissa_errors::corrected(std::move(base), amplitude, elongation ? elongated : scaled,
                                       {at.abscissa, at.channel, at.power});
   };
+  mechanism.calibration = [](const Misrecorded& at) {
+    return fmt::format("the true {}stretches of {} are {:.4g} times the recorded ones", at.direction, at.tests,
+                       1 + at.amplitude);
+  };
+  mechanism.question_only = true;
+  mechanism.by_channel = true;
   return mechanism;
 }
 
@@ -202,11 +228,15 @@ MechanismFactory sheet_force_offset() {
                                load_cells}),
                     offset);
   mechanism.plausible_effect = 0.2;
+  mechanism.calibration = [](const Misrecorded& at) {
+    return fmt::format("the {}load cell of {} shows {:.3g} kPa at no load", at.direction, at.tests, at.amplitude);
+  };
+  mechanism.question_only = true;
   return mechanism;
 }
 
 MechanismFactory sheet_force_scale_error() {
-  return sheet_reading(
+  MechanismFactory mechanism = sheet_reading(
       described("sheet_force_scale_error", sheets,
                 {"gain", "1", 0, -0.5, 1, Scale::linear, "Measured over true stress, less 1.", ""}, -0.3, 0.3,
                 {"The gain of a load cell of the sheet, or the area that its force was divided by, is wrong.",
@@ -214,6 +244,11 @@ MechanismFactory sheet_force_scale_error() {
                  "a known weight on the load cell",
                  load_cells}),
       gained);
+  mechanism.calibration = [](const Misrecorded& at) {
+    return fmt::format("the {}stresses of {} are {:.4g} times the true ones", at.direction, at.tests, 1 + at.amplitude);
+  };
+  mechanism.question_only = true;
+  return mechanism;
 }
 
 MechanismFactory channel_lag() {
@@ -229,6 +264,10 @@ MechanismFactory channel_lag() {
   mechanism.wrap_test = [amplitude = mechanism.parameters.front()](std::unique_ptr<Test> base, const Options&) {
     return late(std::move(base), amplitude);
   };
+  mechanism.calibration = [](const Misrecorded& at) {
+    return fmt::format("the readings of {} come {:.3g} s late", at.tests, at.amplitude);
+  };
+  mechanism.question_only = true;
   return mechanism;
 }
 

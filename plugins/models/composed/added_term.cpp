@@ -103,6 +103,7 @@ MechanismFactory added_term() {
   };
   mechanism.parameters = mechanism.parameters_of(by_default);
   mechanism.wrap_model = wrapped;
+  mechanism.writes_terms = true;
   return mechanism;
 }
 

@@ -42,6 +42,8 @@ TUNICA_PLUGIN("composed", TUNICA_PLUGIN_VERSION) {
                             "An energy put together in the experiment file, term by term: an invariant and a law each.",
                             "Linka, Kuhl, Comput. Methods Appl. Mech. Eng. 403:115731 (2023), for the choice of terms",
                             {terms},
-                            create});
+                            create,
+                            {},
+                            true});
   registry.add(added_term());
 }

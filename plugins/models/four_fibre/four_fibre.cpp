@@ -30,15 +30,24 @@ EnergyParts parts(const Options& options) {
                                                                    {k1_circumferential, k2_circumferential}, options));
 }
 
+CardEnergy card(const Options& options, std::span<const double> p) {
+  FibreEnergy energy = arterial::card_of_pair(p[mu], {p[theta], p[k1], p[k2]}, options);
+  energy.families.push_back({0, p[k1_axial], p[k2_axial]});
+  energy.families.push_back({90, p[k1_circumferential], p[k2_circumferential]});
+  return energy;
+}
+
 }  // namespace
 
 TUNICA_PLUGIN("four_fibre", TUNICA_PLUGIN_VERSION) {
-  registry.add(hyperelastic_factory(
-      {.type = "four_fibre",
-       .parameters = {arterial::mu(), arterial::k1(), arterial::k2(), arterial::theta(),
-                      of_family("axial", arterial::k1), of_family("axial", arterial::k2),
-                      of_family("circumferential", arterial::k1), of_family("circumferential", arterial::k2)}},
-      "Four fibre families in a neo-Hookean matrix: a diagonal pair, an axial and a circumferential one.",
-      "Baek, Gleason, Rajagopal, Humphrey, Comput. Methods Appl. Mech. Eng. 196:3070 (2007)", parts,
-      {arterial::fibre_switch()}));
+  registry.add(with_card(
+      hyperelastic_factory(
+          {.type = "four_fibre",
+           .parameters = {arterial::mu(), arterial::k1(), arterial::k2(), arterial::theta(),
+                          of_family("axial", arterial::k1), of_family("axial", arterial::k2),
+                          of_family("circumferential", arterial::k1), of_family("circumferential", arterial::k2)}},
+          "Four fibre families in a neo-Hookean matrix: a diagonal pair, an axial and a circumferential one.",
+          "Baek, Gleason, Rajagopal, Humphrey, Comput. Methods Appl. Mech. Eng. 196:3070 (2007)", parts,
+          {arterial::fibre_switch()}),
+      card));
 }

@@ -9,11 +9,14 @@
 TUNICA_PLUGIN("gent", TUNICA_PLUGIN_VERSION) {
   using namespace tunica;
   const char* const source = "Gent, Rubber Chem. Technol. 69:59 (1996)";
-  registry.add(isotropic::first_invariant_factory<laws::Gent>(
+  ModelFactory gent = isotropic::first_invariant_factory<laws::Gent>(
       {.type = "gent",
        .parameters = {{"mu", "kPa", 300, 0.1, 1e5, Scale::log, "Shear modulus.", source},
                       {"Jm", "1", 100, 0.1, 1e4, Scale::log,
                        "Largest I1 - 3 the chains allow: about 100 for rubber (Gent 1996), 0.4 to 4 for arteries.",
                        "Horgan, Saccomandi, Biomech. Model. Mechanobiol. 1:251 (2003)"}}},
-      "Incompressible rubber whose chains have a limit of extension.", source));
+      "Incompressible rubber whose chains have a limit of extension.", source);
+  registry.add(with_card(std::move(gent), [](const Options&, std::span<const double> p) {
+    return LimitedChainEnergy{p[0], p[1]};
+  }));
 }

@@ -22,6 +22,10 @@ EnergyParts parts(const Options& options) {
                       arterial::fibres<DispersedFibres, parameter_count>({kappa, theta}, {k1, k2}, options));
 }
 
+CardEnergy card(const Options& options, std::span<const double> p) {
+  return arterial::card_of_pair(p[mu], {p[theta], p[k1], p[k2], p[kappa], 1 - 3 * p[kappa]}, options);
+}
+
 }  // namespace
 
 TUNICA_PLUGIN("gho", TUNICA_PLUGIN_VERSION) {
@@ -33,8 +37,11 @@ TUNICA_PLUGIN("gho", TUNICA_PLUGIN_VERSION) {
                              Scale::linear,
                              "Fibre dispersion: 0 = perfectly aligned, 1/3 = isotropic.",
                              "Gasser, Ogden, Holzapfel 2006, eq. 4.2"};
-  registry.add(hyperelastic_factory(
-      {.type = "gho", .parameters = {arterial::mu(), dispersion, arterial::k1(), arterial::k2(), arterial::theta()}},
-      "Two dispersed fibre families in a neo-Hookean matrix (Gasser–Ogden–Holzapfel).",
-      "Gasser, Ogden, Holzapfel, J. R. Soc. Interface 3:15 (2006)", parts, {arterial::fibre_switch()}));
+  registry.add(
+      with_card(hyperelastic_factory(
+                    {.type = "gho",
+                     .parameters = {arterial::mu(), dispersion, arterial::k1(), arterial::k2(), arterial::theta()}},
+                    "Two dispersed fibre families in a neo-Hookean matrix (Gasser–Ogden–Holzapfel).",
+                    "Gasser, Ogden, Holzapfel, J. R. Soc. Interface 3:15 (2006)", parts, {arterial::fibre_switch()}),
+                card));
 }

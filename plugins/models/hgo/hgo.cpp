@@ -16,11 +16,17 @@ EnergyParts parts(const Options& options) {
                       arterial::fibres<Fibres, parameter_count>({theta}, {k1, k2}, options));
 }
 
+CardEnergy card(const Options& options, std::span<const double> p) {
+  return arterial::card_of_pair(p[mu], {p[theta], p[k1], p[k2]}, options);
+}
+
 }  // namespace
 
 TUNICA_PLUGIN("hgo", TUNICA_PLUGIN_VERSION) {
-  registry.add(hyperelastic_factory(
-      {.type = "hgo", .parameters = {arterial::mu(), arterial::k1(), arterial::k2(), arterial::theta()}},
-      "Two aligned fibre families in a neo-Hookean matrix (Holzapfel–Gasser–Ogden).",
-      "Holzapfel, Gasser, Ogden, J. Elasticity 61:1 (2000)", parts, {arterial::fibre_switch()}));
+  registry.add(
+      with_card(hyperelastic_factory(
+                    {.type = "hgo", .parameters = {arterial::mu(), arterial::k1(), arterial::k2(), arterial::theta()}},
+                    "Two aligned fibre families in a neo-Hookean matrix (Holzapfel–Gasser–Ogden).",
+                    "Holzapfel, Gasser, Ogden, J. Elasticity 61:1 (2000)", parts, {arterial::fibre_switch()}),
+                card));
 }

@@ -46,6 +46,10 @@ EnergyParts parts(const Options& options) {
                       arterial::fibres<DispersedFibres, parameter_count>({A, B, theta}, {k1, k2}, options));
 }
 
+CardEnergy card(const Options& options, std::span<const double> p) {
+  return arterial::card_of_pair(p[mu], {p[theta], p[k1], p[k2], p[A], p[B]}, options);
+}
+
 ModelDescription description() {
   const char* const source = "Holzapfel, Niestrawska, Ogden, Reinisch, Schriefl 2015, eq. 2.24";
   return {.type = "holzapfel_2015",
@@ -64,7 +68,9 @@ ModelDescription description() {
 }  // namespace
 
 TUNICA_PLUGIN("holzapfel_2015", TUNICA_PLUGIN_VERSION) {
-  registry.add(hyperelastic_factory(
-      description(), "Two fibre families with non-symmetric dispersion in a neo-Hookean matrix.",
-      "Holzapfel et al., J. R. Soc. Interface 12:20150188 (2015)", parts, {arterial::fibre_switch()}));
+  registry.add(with_card(
+      hyperelastic_factory(description(), "Two fibre families with non-symmetric dispersion in a neo-Hookean matrix.",
+                           "Holzapfel et al., J. R. Soc. Interface 12:20150188 (2015)", parts,
+                           {arterial::fibre_switch()}),
+      card));
 }

@@ -70,6 +70,23 @@ std::unique_ptr<Model> create_blatz_ko(const Options&) {
   });
 }
 
+CardEnergy hyperfoam_card(const Options& options, std::span<const double> p) {
+  const bool shared = options.text("poisson") == "shared";
+  FoamEnergy energy;
+  for (std::size_t k = 0; k + 2 < p.size() + (shared ? 1 : 0); k += shared ? 2 : 3)
+    energy.terms.push_back({p[k], p[k + 1], shared ? p.back() : p[k + 2]});
+  return energy;
+}
+
+/// A term of weight 0 is left out.
+CardEnergy blatz_ko_card(const Options&, std::span<const double> p) {
+  const double mu = p[0], f = p[1], nu = p[2];
+  FoamEnergy energy;
+  if (f != 0) energy.terms.push_back({mu * f, 2, nu});
+  if (f != 1) energy.terms.push_back({mu * (1 - f), -2, nu});
+  return energy;
+}
+
 }  // namespace
 
 TUNICA_PLUGIN("hyperfoam", TUNICA_PLUGIN_VERSION) {
@@ -79,10 +96,12 @@ TUNICA_PLUGIN("hyperfoam", TUNICA_PLUGIN_VERSION) {
       storakers,
       {Option::integer("terms", 1, {1, most_terms}, "Number of terms; each has its own mu and alpha."),
        Option::choice("poisson", {"shared", "each"}, "shared", "One Poisson's ratio for all terms, or one for each.")},
-      create_hyperfoam});
+      create_hyperfoam,
+      hyperfoam_card});
   registry.add(ModelFactory{"blatz_ko",
                             "Compressible foam rubber: W of I1, I2/I3 and J with one Poisson's ratio.",
                             blatz_ko,
                             {},
-                            create_blatz_ko});
+                            create_blatz_ko,
+                            blatz_ko_card});
 }

@@ -55,6 +55,13 @@ std::unique_ptr<Model> create(const Options& options) {
   return std::make_unique<Hyperelastic>(std::move(description), isotropic::polynomial_parts(all));
 }
 
+CardEnergy card(const Options& options, std::span<const double> constants) {
+  PolynomialEnergy energy;
+  for (const Powers& at : powers_of(options.count("terms")))
+    energy.terms.push_back({at.m, at.n, constants[energy.terms.size()]});
+  return energy;
+}
+
 }  // namespace
 
 TUNICA_PLUGIN("mooney_rivlin", TUNICA_PLUGIN_VERSION) {
@@ -62,5 +69,6 @@ TUNICA_PLUGIN("mooney_rivlin", TUNICA_PLUGIN_VERSION) {
                             "Incompressible rubber, a polynomial in the invariants I1 and I2 (Mooney–Rivlin).",
                             "Mooney, J. Appl. Phys. 11:582 (1940)",
                             {Option::integer("terms", 2, {2, 9}, "Number of constants: 2, 3, 5 or 9.")},
-                            create});
+                            create,
+                            card});
 }

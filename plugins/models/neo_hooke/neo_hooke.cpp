@@ -6,8 +6,11 @@
 TUNICA_PLUGIN("neo_hooke", TUNICA_PLUGIN_VERSION) {
   using namespace tunica;
   const char* const source = "Treloar, Trans. Faraday Soc. 39:241 (1943)";
-  registry.add(hyperelastic_factory(
+  ModelFactory neo_hooke = hyperelastic_factory(
       {.type = "neo_hooke", .parameters = {{"mu", "kPa", 100, 0.1, 1e5, Scale::log, "Shear modulus.", source}}},
       "Incompressible rubber with Gaussian chains: one modulus.", source,
-      [](const Options&) { return energy_parts(isotropic::neo_hookean<1>(0)); }));
+      [](const Options&) { return energy_parts(isotropic::neo_hookean<1>(0)); });
+  registry.add(with_card(std::move(neo_hooke), [](const Options&, std::span<const double> p) {
+    return PolynomialEnergy{{{1, 0, 0.5 * p[0]}}};
+  }));
 }

@@ -36,6 +36,12 @@ std::unique_ptr<Model> create_with(const Options& options) {
   return makers.at(options.count("terms") - 1)();
 }
 
+CardEnergy card(const Options&, std::span<const double> p) {
+  StretchEnergy energy;
+  for (std::size_t k = 0; k < p.size(); k += 2) energy.terms.push_back({p[k], p[k + 1]});
+  return energy;
+}
+
 }  // namespace
 
 TUNICA_PLUGIN("ogden", TUNICA_PLUGIN_VERSION) {
@@ -44,5 +50,6 @@ TUNICA_PLUGIN("ogden", TUNICA_PLUGIN_VERSION) {
       "Incompressible rubber, powers of the principal stretches: W = sum of mu/alpha (sum of lambda^alpha - 3).",
       "Ogden, Proc. R. Soc. A 326:565 (1972)",
       {Option::integer("terms", 3, {1, most_terms}, "Number of terms; each has its own mu and alpha.")},
-      create_with});
+      create_with,
+      card});
 }

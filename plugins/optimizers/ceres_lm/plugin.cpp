@@ -59,5 +59,6 @@ TUNICA_PLUGIN("ceres_lm", "0.1.0") {
                    "Non-Linear Least Squares Problems, 2nd ed., DTU (2004); "
                    "S. Agarwal, K. Mierle et al., Ceres Solver 2.1, ceres-solver.org.",
       .options = tunica::ceres_lm::options,
-      .create = tunica::ceres_lm::create});
+      .create = tunica::ceres_lm::create,
+      .refines = true});
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tunica/card_energy.hpp"
 #include "tunica/models/hyperelastic.hpp"
 #include "tunica/models/isotropic.hpp"
 #include "tunica/models/law_part.hpp"
@@ -58,6 +59,13 @@ inline EnergyPart::Active active(const Options& options) {
   return value == "strain"    ? EnergyPart::Active::argument_positive
          : value == "stretch" ? EnergyPart::Active::fibre_stretched
                               : EnergyPart::Active::always;
+}
+
+/// A card's energy: a neo-Hookean matrix and the pair at ±theta with E = A I1 + B M·CM + (1 − 3A − B) C_rr − 1.
+inline FibreEnergy card_of_pair(double mu, const FibreFamily& family, const Options& options) {
+  FibreFamily mirrored = family;
+  mirrored.angle = -family.angle;
+  return {mu, {family, mirrored}, active(options)};
 }
 
 /// E = I_i − 1 of a family at the angle of the model parameter with index `angle`, in degrees.

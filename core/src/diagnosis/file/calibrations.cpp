@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "diagnosis/file/correction.hpp"
-#include "diagnosis/hypotheses/record_errors.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -46,7 +45,7 @@ void add(const std::string& id, const std::vector<std::string>& tests, bool comm
 void add_directions(const MechanismFactory& mechanism, const std::vector<std::string>& tests, bool common,
                     const std::vector<std::string>& directions, Corrections& all) {
   for (const std::string& direction : directions) add(mechanism.id, tests, common, {direction}, all);
-  if (mechanism.id == "sheet_prestretch")
+  if (mechanism.by_channel)
     add(mechanism.id, tests, common, directions, all);
   else
     add(mechanism.id, tests, common, {""}, all);
@@ -57,24 +56,9 @@ std::string direction_words(const std::string& channel) {
   return channel.size() > 7 ? channel.substr(7) + " " : std::string();
 }
 
-std::string sentence_of(const Addition& addition, double amplitude) {
-  const std::string tests = quoted(addition.place.tests), direction = direction_words(addition.place.channel);
-  const std::string& id = addition.id;
-  if (id == "displacement_offset")
-    return fmt::format("the true stretches of {} are {:.3g} {} than recorded", tests, std::abs(amplitude),
-                       amplitude < 0 ? "smaller" : "larger");
-  if (id == "zeroed_at_preload")
-    return fmt::format("force and length of {} were zeroed under load, at a stretch of {:.4g}", tests, 1 + amplitude);
-  if (id == "machine_compliance")
-    return fmt::format("frame and grips of {} take a stretch of {:.3g} for each kPa", tests, amplitude);
-  if (id == "sheet_prestretch" || id == "reference_length_error")
-    return fmt::format("the true {}stretches of {} are {:.4g} times the recorded ones", direction, tests,
-                       1 + amplitude);
-  if (id == "sheet_force_offset" || id == "force_offset")
-    return fmt::format("the {}load cell of {} shows {:.3g} kPa at no load", direction, tests, amplitude);
-  if (id == "sheet_force_scale_error" || id == "force_scale_error")
-    return fmt::format("the {}stresses of {} are {:.4g} times the true ones", direction, tests, 1 + amplitude);
-  return fmt::format("the readings of {} come {:.3g} s late", tests, amplitude);
+std::string words_of(const Addition& addition, double amplitude, const plugins::Catalogue& catalogue) {
+  const MechanismFactory& mechanism = catalogue.mechanisms().find(addition.id)->second.factory;
+  return mechanism.calibration({quoted(addition.place.tests), direction_words(addition.place.channel), amplitude});
 }
 
 }  // namespace
@@ -84,8 +68,8 @@ void add_calibrations(const Record& record, const std::vector<std::string>& test
   for (const auto& [id, entry] : catalogue.mechanisms()) {
     const MechanismFactory& mechanism = entry.factory;
     // In one test these are causes in the rig.
-    const bool of_the_rig = id == "force_offset" || id == "force_scale_error" || id == "reference_length_error";
-    if (!of_the_rig && !errs_in_the_record(id)) continue;
+    const bool of_the_rig = !mechanism.question_only;
+    if (!mechanism.calibration) continue;
     std::vector<std::string> fit_for, directions;
     for (const std::string& test : tests) {
       if (!acts_on(mechanism, record.test(test).type)) continue;
@@ -107,10 +91,11 @@ void add_calibrations(const Record& record, const std::vector<std::string>& test
   }
 }
 
-std::string calibration_words(const Correction& correction, const std::vector<Amplitude>& amplitudes) {
+std::string calibration_words(const Correction& correction, const std::vector<Amplitude>& amplitudes,
+                              const plugins::Catalogue& catalogue) {
   std::string words;
   for (std::size_t k = 0; k < correction.additions.size(); ++k)
-    words += (k > 0 ? ", and " : "") + sentence_of(correction.additions[k], amplitudes[k].value);
+    words += (k > 0 ? ", and " : "") + words_of(correction.additions[k], amplitudes[k].value, catalogue);
   return words;
 }
 

@@ -55,7 +55,8 @@ void add_calibrations(const Record& record, const std::vector<std::string>& test
                       Corrections& all);
 
 /// What is so, of fitted amplitudes.
-std::string calibration_words(const Correction& correction, const std::vector<Amplitude>& amplitudes);
+std::string calibration_words(const Correction& correction, const std::vector<Amplitude>& amplitudes,
+                              const plugins::Catalogue& catalogue);
 
 /// One correction for each of the tests, and one for all where there are several.
 struct Wording {

@@ -76,14 +76,14 @@ std::vector<std::string> measures_as_good(const Inquiry& inquiry, const Analysis
   return all;
 }
 
-FileCause cause_of(const CorrectedFit& corrected, double p_after) {
+FileCause cause_of(const CorrectedFit& corrected, double p_after, const plugins::Catalogue& catalogue) {
   const Correction& correction = *corrected.correction;
   FileCause cause{
       correction.kind, correction.tests, correction.sentence, correction.mend, corrected.fit.chi2, p_after, 0, false};
   if (correction.additions.empty()) return cause;
   cause.mechanism = correction.additions.front().id;
   cause.amplitudes = corrected.amplitudes;
-  cause.sentence = calibration_words(correction, corrected.amplitudes);
+  cause.sentence = calibration_words(correction, corrected.amplitudes, catalogue);
   return cause;
 }
 
@@ -127,7 +127,7 @@ Explanation weighed_with_file(const Inquiry& inquiry, const Analysis& analysis, 
   const double together = log_sum(logs);
   bool clean = false;
   for (std::size_t k = 0; k < std::min(fits.size(), most_causes); ++k) {
-    FileCause cause = cause_of(fits[k], p_of_corrected(analysis, fits[k]));
+    FileCause cause = cause_of(fits[k], p_of_corrected(analysis, fits[k]), inquiry.catalogue);
     cause.probability = std::exp(fits[k].log_weight - together);
     cause.near = 2 * (fits.front().log_weight - fits[k].log_weight) < near_within;
     clean = clean || (k == 0 && is_clean(cause.p_after));

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/hypotheses/record_errors.hpp"
-
 namespace tunica::diagnosis {
 namespace {
 
@@ -90,7 +88,7 @@ std::optional<AmplitudeRange> range_from_data(const Extension& extended, const M
                                               const std::vector<MechanismFactory::Setting>& settings,
                                               const std::vector<double>& null, assembly::Workspace& workspace) {
   const Place& place = extended.additions().front().place;
-  if (!place.channel.empty() && !errs_in_the_record(mechanism.id)) {
+  if (!place.channel.empty() && !mechanism.question_only) {
     double span = 0;
     for (const assembly::MeasuredChannel& view : extended.assembly().layout().channels)
       if (view.test == place.tests.front() && view.observable == place.channel) span = span_of(view);

@@ -14,7 +14,6 @@
 #include "diagnosis/hypotheses/extension.hpp"
 #include "diagnosis/hypotheses/isotropy.hpp"
 #include "diagnosis/hypotheses/places.hpp"
-#include "diagnosis/hypotheses/record_errors.hpp"
 #include "diagnosis/hypotheses/signatures.hpp"
 #include "diagnosis/hypotheses/volume.hpp"
 #include "plugins/guarded.hpp"
@@ -350,7 +349,7 @@ std::vector<Candidate> candidates(const Inquiry& inquiry, const Evidence& eviden
   std::vector<const plugins::Catalogue::Entry<MechanismFactory>*> asked;
   for (const auto& [id, entry] : inquiry.catalogue.mechanisms())
     if (!entry.factory.parameters_of &&
-        (requested.empty() ? !errs_in_the_record(id)
+        (requested.empty() ? !entry.factory.question_only
                            : std::find(requested.begin(), requested.end(), id) != requested.end()))
       asked.push_back(&entry);
   std::vector<Candidate> found(asked.size());

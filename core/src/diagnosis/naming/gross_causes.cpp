@@ -18,7 +18,12 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr const char* outliers = "outliers";  ///< the mechanism
+/// The mechanism that takes readings out; nullptr: no plugin has one.
+const MechanismFactory* taker_of_rows(const plugins::Catalogue& catalogue) {
+  for (const auto& [id, entry] : catalogue.mechanisms())
+    if (entry.factory.stage == Stage::data && takes(entry.factory, "rows")) return &entry.factory;
+  return nullptr;
+}
 
 /// How far a row lies from what an extension predicts, and its σ, in the unit of its channel.
 struct RowDeviation {
@@ -42,7 +47,7 @@ std::optional<RowDeviation> deviation_of(const Refit& refit, const GrossRow& row
 }
 
 /// Of the rows that were left out, the first of every test that has no such mechanism yet.
-std::vector<GrossRow> taken_out(const std::vector<GrossRow>& gross, const Refit& refit) {
+std::vector<GrossRow> taken_out(const std::vector<GrossRow>& gross, const Refit& refit, const std::string& outliers) {
   std::set<std::string> taken;
   for (const auto& test : refit.extension->experiment().tests)
     for (const auto& mechanism : test.mechanisms)
@@ -57,7 +62,7 @@ Cause cause_of_row(const GrossRow& row, const RowDeviation& far, const Mechanism
   const double quantile = numerics::normal_quantile(0.975);
   const double value = far.value, half = quantile * far.sd;
   Cause cause;
-  cause.id = outliers;
+  cause.id = mechanism.id;
   cause.place = {{row.test}, row.channel, row.row, {}, row.file_row};
   cause.group = group_of(mechanism);
   cause.amplitude = {mechanism.parameters.front().name, far.unit, value, value - half, value + half, false, true};
@@ -82,12 +87,11 @@ std::vector<GrossRow> still_gross(const Analysis& analysis, const Claim& claim) 
 }
 
 std::vector<Cause> causes_of_rows(const Inquiry& inquiry, const Analysis& analysis, const Claim& claim) {
-  const auto found = inquiry.catalogue.mechanisms().find(outliers);
-  if (!claim.best || found == inquiry.catalogue.mechanisms().end()) return {};
+  const MechanismFactory* const outliers = taker_of_rows(inquiry.catalogue);
+  if (!claim.best || outliers == nullptr) return {};
   std::vector<Cause> causes;
-  for (const GrossRow& row : taken_out(analysis.evidence.gross, *claim.best))
-    if (const auto far = deviation_of(*claim.best, row))
-      causes.push_back(cause_of_row(row, *far, found->second.factory));
+  for (const GrossRow& row : taken_out(analysis.evidence.gross, *claim.best, outliers->id))
+    if (const auto far = deviation_of(*claim.best, row)) causes.push_back(cause_of_row(row, *far, *outliers));
   return causes;
 }
 

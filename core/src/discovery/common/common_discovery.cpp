@@ -98,7 +98,7 @@ std::vector<Searching> analysed(const std::vector<Member>& members, const Reques
       progress(fmt::format("specimen {} of {}", k + 1, members.size()),
                0.5 * static_cast<double>(k) / static_cast<double>(members.size()));
     experiment::Experiment given = members[k].experiment;
-    if (request.from_nothing) given = with_first_terms(std::move(given), request.model, false);
+    if (request.from_nothing) given = with_first_terms(std::move(given), request.model, false, *catalogue.term_model());
     Searching one{members[k].id, nullptr, {}};
     try {
       one.measured = std::make_unique<experiment::Experiment>(experiment::measured_only(std::move(given)));

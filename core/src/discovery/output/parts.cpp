@@ -71,7 +71,7 @@ json paths_json(const PathDependence& paths) {
 std::string document(const std::string& name, const std::vector<diagnosis::Warning>& warnings, json discovery,
                      const experiment::Experiment& experiment, const diagnosis::Evidence& evidence,
                      const std::vector<std::string>& data_hashes, const plugins::Catalogue& catalogue) {
-  std::set<std::string> plugins{catalogue.models().find("composed")->second.plugin};
+  std::set<std::string> plugins{catalogue.term_model()->plugin};
   for (const std::string& model : experiment.models_of(evidence.run))
     plugins.insert(catalogue.models().find(experiment.model(model).type)->second.plugin);
   for (const std::string& test : evidence.run.tests)
