@@ -30,7 +30,7 @@ double held_value(const Slot& slot) { return slot.setting ? *slot.setting->fixed
 /// The effective declaration of one slot, before sharing.
 FreeParameter effective(const Slot& slot) {
   const Parameter& own = slot.declaration;
-  FreeParameter free{own.name, own.unit, own.min, own.max, own.initial, own.scale, {}, {own.min, own.max}};
+  FreeParameter free{own.name, own.unit, own.min, own.max, own.initial, own.scale, {}, {own.min, own.max}, {slot.id}};
   if (const ParameterSetting* setting = slot.setting) {
     free.min = setting->min.value_or(own.min);
     free.max = setting->max.value_or(own.max);
@@ -97,7 +97,10 @@ FreeParameter merge(const std::vector<const Slot*>& slots) {
   const Slot* scaled = nullptr;  // who states a scale, and an initial value
   const Slot* started = nullptr;
   for (const Slot* slot : slots) {
-    if (slot != slots.front()) tie(free, *slots.front(), *slot);
+    if (slot != slots.front()) {
+      tie(free, *slots.front(), *slot);
+      free.places.push_back(slot->id);
+    }
     if (!slot->setting) continue;
     if (const auto scale = slot->setting->scale) {
       if (scaled && *scaled->setting->scale != *scale) {
@@ -124,6 +127,12 @@ FreeParameter merge(const std::vector<const Slot*>& slots) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> Layout::index_of(const ParameterId& id) const {
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    if (std::ranges::find(parameters[j].places, id) != parameters[j].places.end()) return j;
+  return std::nullopt;
+}
 
 FreeParameter::Bound FreeParameter::kind_of(bool upper) const {
   const double bound = upper ? max : min, limit = upper ? declared.max : declared.min;

@@ -23,6 +23,7 @@ struct Slot {
     std::size_t owner, position;
   };
   std::optional<Same> same_as = {};
+  ParameterId id = {};
 };
 
 struct Binding {

@@ -12,6 +12,7 @@
 
 #include "assembly/channel_noise.hpp"
 #include "assembly/differing.hpp"
+#include "assembly/parameter_id.hpp"
 #include "data/dataset.hpp"
 #include "experiment/experiment.hpp"
 #include "tunica/model.hpp"
@@ -35,6 +36,7 @@ struct FreeParameter {
   Scale scale;
   std::optional<experiment::Prior> prior;
   DeclaredRange declared = {};
+  std::vector<ParameterId> places = {};  ///< one; of a share all that share it
   /// The bound, or the initial value, is the file's and not its owner's default.
   bool own_min = false, own_max = false, own_initial = false;
 
@@ -111,6 +113,9 @@ struct Layout {
   bool jacobian_is_exact = true;             ///< false: some test's predictions are differenced
   bool derivatives_missing = false;          ///< some test is differenced that does not say how, see Differencing
   bool has_costly_tests = false;             ///< some fitted test declares itself costly
+
+  /// The position in `parameters`; nothing where it is held or unknown.
+  [[nodiscard]] std::optional<std::size_t> index_of(const ParameterId& id) const;
 };
 
 }  // namespace tunica::assembly

@@ -40,11 +40,14 @@ std::vector<Slot> slots_in(const experiment::StateEntry& state, const std::strin
   for (std::size_t position = 0; position < slots.size(); ++position) {
     Slot& slot = slots[position];
     const ParameterSetting* own = nullptr;
+    std::string key;  // as the state's entry has it
     for (const std::string& name : names_of(slot.declaration.name, model)) {
       const auto found = state.differs.find(name);
       if (found == state.differs.end()) continue;
       unread.erase(name);
-      if (own == nullptr) own = &found->second;
+      if (own != nullptr) continue;
+      own = &found->second;
+      key = name;
     }
     if (own == nullptr) {
       slot.same_as = {owner, position};
@@ -53,6 +56,7 @@ std::vector<Slot> slots_in(const experiment::StateEntry& state, const std::strin
     slot.setting = &settings.emplace_back(together(*own, slot));
     differing.push_back({state.name, slot.declaration.name, state.name + "." + slot.declaration.name});
     slot.declaration.name = differing.back().own;
+    slot.id = {ParameterId::Owner::state, state.name, "", key};
   }
   return slots;
 }

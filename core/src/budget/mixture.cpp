@@ -100,9 +100,9 @@ std::optional<Mixture> Mixer::bound(std::vector<Member> members) const {
         own.insert(own.end(), one.nuisance.begin(), one.nuisance.end());
         continue;
       }
-      const std::string prefix = terms->terms()[term++].name + ".";
+      const std::string& added = terms->terms()[term++].name;
       const auto add = [&](const std::string& name) {
-        own.push_back({discovery::index_of(mixture.extension->assembly(), prefix + name)});
+        own.push_back({discovery::index_of(mixture.extension->assembly(), *subject_, added, name)});
       };
       add(member.term->amplitude());
       for (const discovery::Shape& shape : member.term->shapes) add(shape.name);

@@ -36,7 +36,8 @@ class BoundSet {
   std::vector<BoundTerm> terms_;
 };
 
-/// The index of a free parameter by its name; throws std::logic_error where there is none.
-std::size_t index_of(const assembly::Assembly& assembly, const std::string& name);
+/// The index of a free parameter of a term; throws std::logic_error where there is none.
+std::size_t index_of(const assembly::Assembly& assembly, const Subject& subject, const std::string& term,
+                     const std::string& name);
 
 }  // namespace tunica::discovery

@@ -125,7 +125,7 @@ void Fitter::begin_with(const std::vector<KindPointer>& kinds) {
     std::vector<double> start = start_of(root_, *set->set);
     const auto& known = evidence_.base->layout().parameters;
     for (std::size_t k = 0; k < known.size(); ++k)
-      start[index_of(set->set->assembly(), known[k].name)] = evidence_.fit.free[k];
+      start[*set->set->assembly().layout().index_of(known[k].places.front())] = evidence_.fit.free[k];
     fit = fitted(std::move(*set), start);
   }
   if (!fit)
@@ -189,7 +189,7 @@ double Fitter::largest_amplitude(const Kind& kind) const {
     const auto workspace = set.assembly().evaluator().make_workspace();
     std::vector<double> start = start_of(root_, set);
     const auto of_first_term = [&](std::size_t which, const char* amplitude) {
-      return evidence_.fit.free[index_of(*evidence_.base, first_terms(by_volume)[which] + "_" + amplitude)];
+      return evidence_.fit.free[index_of(*evidence_.base, subject_, first_terms(by_volume)[which], amplitude)];
     };
     for (std::size_t k = 1; k < kinds.size(); ++k)
       start[set.terms()[k].amplitude] = of_first_term(k - 1, k == 1 ? "mu" : "K");

@@ -55,13 +55,6 @@ void name_apart(const Experiment& experiment, const std::string& model, Addition
   for (int number = 2; taken(addition.name()); ++number) addition.as = fmt::format("{}_{}", addition.id, number);
 }
 
-std::optional<std::size_t> index_of(const assembly::Assembly& assembly, const std::string& name) {
-  const auto& parameters = assembly.layout().parameters;
-  for (std::size_t j = 0; j < parameters.size(); ++j)
-    if (parameters[j].name == name) return j;
-  return std::nullopt;
-}
-
 /// A clock for the tests of a run that have none and whose pace is open.
 void set_pace(Experiment& experiment, const experiment::RunEntry& run, double pace,
               const plugins::Catalogue& catalogue) {
@@ -82,9 +75,12 @@ Extension::Extension(const experiment::Experiment& experiment, const experiment:
                      std::vector<Addition> additions, const plugins::Catalogue& catalogue)
     : experiment_(experiment), additions_(std::move(additions)) {
   const std::vector<std::string> models = experiment_.models_of(run);
+  const auto model_of = [&models](const Addition& addition) {
+    return addition.place.model.empty() ? models.front() : addition.place.model;
+  };
   for (Addition& addition : additions_) {
     const MechanismFactory& mechanism = catalogue.mechanisms().at(addition.id).factory;
-    const std::string& model = addition.place.model.empty() ? models.front() : addition.place.model;
+    const std::string model = model_of(addition);
     name_apart(experiment_, model, addition);
     if (addition.place.tests.empty())
       entry_named(experiment_.models, model).mechanisms.push_back(entry_of(addition, mechanism));
@@ -108,9 +104,8 @@ Extension::Extension(const experiment::Experiment& experiment, const experiment:
     Part part{{}, {}, {}, mechanism.null};
     for (std::size_t k = 0; k < mechanism.parameters.size(); ++k) {
       Variable variable;
-      const auto add = [&](const std::string& owner) {
-        const auto index =
-            index_of(*assembly_, fmt::format("{}{}.{}", owner, addition.name(), mechanism.parameters[k].name));
+      const auto add = [&](const assembly::ParameterId& id) {
+        const auto index = assembly_->layout().index_of(id);
         if (!index)
           throw plugins::PluginFailure(
               fmt::format("the mechanism '{}' declares the parameter '{}' but does not have it", addition.id,
@@ -118,8 +113,9 @@ Extension::Extension(const experiment::Experiment& experiment, const experiment:
         variable.push_back(*index);
         added[*index] = true;
       };
-      if (addition.place.tests.empty()) add(addition.place.model.empty() ? "" : addition.place.model + ".");
-      for (const std::string& test : addition.place.tests) add(test + ".");
+      const std::string& name = mechanism.parameters[k].name;
+      if (addition.place.tests.empty()) add(assembly::of_model(model_of(addition), addition.name(), name));
+      for (const std::string& test : addition.place.tests) add(assembly::of_test(test, addition.name(), name));
       if (k == 0) {
         part.amplitude = std::move(variable);
         continue;

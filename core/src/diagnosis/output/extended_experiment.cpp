@@ -51,15 +51,13 @@ std::string extended_experiment(const Diagnosis& d, const plugins::Catalogue& ca
   if (!d.explanation.claim.best) return {};
   const Refit& best = *d.explanation.claim.best;
   Experiment experiment = best.extension->experiment();
-  const std::vector<std::string> models = experiment.models_of(d.analysis.evidence.run);
   // One amplitude in several tests: they share a parameter.
   for (const Addition& addition : best.additions) {
     if (addition.place.tests.size() < 2) continue;
     for (const Parameter& parameter : catalogue.mechanisms().at(addition.id).factory.parameters)
       for (const std::string& test : addition.place.tests)
-        if (auto* setting =
-                setting_of(experiment, models, fmt::format("{}.{}.{}", test, addition.name(), parameter.name)))
-          setting->share = addition.name() + "_" + parameter.name;
+        setting_at(experiment, assembly::of_test(test, addition.name(), parameter.name)).share =
+            addition.name() + "_" + parameter.name;
   }
   for (const Addition& addition : best.additions) count_rows_as_the_file(experiment, addition);
   add_gross_rows(experiment, d.explanation.left_out, catalogue);

@@ -10,11 +10,6 @@
 
 namespace tunica::diagnosis {
 
-/// Where the file has the parameter that results call `name`: "mu", "strip.stretch_error", "fibre_dispersion.kappa".
-/// Null where it has none.
-experiment::ParameterSetting* setting_of(experiment::Experiment& experiment, const std::vector<std::string>& models,
-                                         const std::string& name);
-
 /// The experiment with its parameters at these values and one run of whitened least squares, as extended.json has it.
 /// `optimizer` is the one asked for; without one Levenberg–Marquardt, which from fitted values is there at once.
 experiment::Experiment fitted_experiment(experiment::Experiment experiment, experiment::RunEntry run,
