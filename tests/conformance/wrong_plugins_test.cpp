@@ -58,6 +58,10 @@ TEST(WrongModel, OfWhichTheStressIsNotTheGradientOfTheEnergyIsNamed) {
   EXPECT_EQ(failed("wrong_energy"), Names{"stress_is_the_gradient_of_the_energy"});
 }
 
+TEST(WrongModel, OfWhichTheCardHasAnotherEnergyIsNamed) {
+  EXPECT_EQ(failed("wrong_card"), Names{"card_has_the_energy_of_the_model"});
+}
+
 TEST(WrongModel, ThatDependsOnTheAxesOfAnIsotropicMaterialIsNamed) {
   EXPECT_EQ(failed("not_objective"), Names{"response_is_objective"});
 }

@@ -102,6 +102,13 @@ Jobs model_jobs(const std::string& type, const CheckContext& context) {
   });
   add_properties(jobs, head, model_properties(), context.settings.seed,
                  [made](const auto& check) { return check(*made()); });
+  const auto add_card = [&](const Finding& of, const Options& options) {
+    if (!entry.factory.card) return;
+    add(jobs, of, "card_has_the_energy_of_the_model", [&entry, options, seed = context.settings.seed] {
+      return card_has_the_energy_of_the_model(*plugins::create_bare(entry, options), entry.factory.card, options, seed);
+    });
+  };
+  add_card(head, plausible_options(entry.factory.options));
   const auto make = [&entry](const Choices& choices) {
     return plugins::create_bare(entry, with_choices(entry.factory.options, choices));
   };
@@ -114,6 +121,7 @@ Jobs model_jobs(const std::string& type, const CheckContext& context) {
                     [make, choices] { return parameters_are_declared(make(choices)->describe().parameters); });
                 add_properties(jobs, with, properties, context.settings.seed,
                                [make, choices](const auto& check) { return check(*make(choices)); });
+                add_card(with, with_choices(entry.factory.options, choices));
               });
   return jobs;
 }

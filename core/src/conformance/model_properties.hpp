@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "conformance/verdict.hpp"
+#include "tunica/card_energy.hpp"
 #include "tunica/model.hpp"
 
 /// The properties every Model must have. What each means for an author, and why its tolerance: docs/plugin-check.md.
@@ -35,6 +36,10 @@ Verdict axes_energy_derivatives_match_differences(const Model& model, std::uint6
 Verdict history_begins_at_rest(const Model& model, std::uint64_t seed);
 Verdict history_tangent_is_the_derivative_of_the_step(const Model& model, std::uint64_t seed);
 Verdict history_stands_still_without_time(const Model& model, std::uint64_t seed);
+
+/// Of a model whose factory declares a card, made with these options.
+Verdict card_has_the_energy_of_the_model(const Model& model, const CardFormula& card, const Options& options,
+                                         std::uint64_t seed);
 
 using ModelProperty = PropertyOf<Model>;
 /// All of these, in this order.
