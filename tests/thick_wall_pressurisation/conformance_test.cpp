@@ -94,12 +94,16 @@ TEST(Tube, HasExactDerivativesWithASectorAsThickAsTheWall) {
   }
 }
 
-TEST(Tube, GivesTheMeanOfBothSidesWhereTheOpeningAngleHasAKink) {
+class TubeOpening : public ::testing::TestWithParam<double> {};
+
+TEST_P(TubeOpening, GivesTheMeanOfBothSidesWhereTheAngleHasAKink) {
+  const double ratio = GetParam();
   const auto model = make_model("gho");
   const auto tube = make_tube({5, 16});
   std::vector<double> jacobian(10 * 4);
-  ASSERT_TRUE(tube->predict({*model, set_s, bare_tube}, {{}, jacobian, {}, {}}).ok());
-  const auto at = [&](double angle) { return inflate(*tube, *model, set_s, {angle, 0, 0, 0, 1}).values; };
+  const std::vector<double> closed{0, 0, 0, 0, ratio};
+  ASSERT_TRUE(tube->predict({*model, set_s, closed}, {{}, jacobian, {}, {}}).ok());
+  const auto at = [&](double angle) { return inflate(*tube, *model, set_s, {angle, 0, 0, 0, ratio}).values; };
   const auto centre = at(0), above = at(1e-3), below = at(-1e-3), twice_above = at(2e-3), twice_below = at(-2e-3);
   bool kink = false;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -110,6 +114,8 @@ TEST(Tube, GivesTheMeanOfBothSidesWhereTheOpeningAngleHasAKink) {
   }
   EXPECT_TRUE(kink);
 }
+
+INSTANTIATE_TEST_SUITE_P(Layers, TubeOpening, ::testing::Values(1, 2.5, 0.4));
 
 TEST(Tube, TensorsGiveWhatTheAxesGive) {
   const auto model = make_model("gho");

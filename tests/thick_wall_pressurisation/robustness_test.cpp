@@ -137,6 +137,44 @@ TEST(TubeRobustness, AnyTubeOfDispersedFibresConverges) {
   std::printf("sharp %zu, worst error of the stretch %.2e\n", sharp, worst);
 }
 
+/// Many rows are found on a curve through samples, few one by one; the number of points through the wall is chosen, or
+/// fixed at one that is fine enough for these walls (seed 23, deterministic: no false alarm).
+TEST(TubeRobustness, ManyRowsAreWhereFewOnAFineRuleAre) {
+  const auto model = make_model("gho");
+  std::mt19937_64 engine(23);
+  std::uniform_real_distribution<double> unit(0, 1);
+  constexpr std::size_t n = 30, few = 6;
+  for (int draw = 0; draw < 40; ++draw) {
+    const auto between = [&](double low, double high) { return low + (high - low) * unit(engine); };
+    const std::vector<double> p{between(5, 40), between(0.02, 0.3), between(5, 60), between(0.1, 5), between(20, 70)};
+    std::vector<double> own = bare_tube;
+    if (draw % 2 == 1) own = {between(-60, 160), between(-0.05, 0.05), 0, between(-0.2, 0.2), between(0.4, 2.5)};
+    TubeSetup setup{.channels = {"outer_diameter_stretch", "inner_diameter", "axial_force"},
+                    .axial_stretch = between(1, 1.5)};
+    const std::vector<double> pressure = evenly(0, between(10, 25), n);
+    const std::size_t columns = 3 * (p.size() + own.size());
+    std::vector<double> values(3 * n), jacobian(columns * n);
+    ASSERT_TRUE(make_tube(pressure, setup)->predict({*model, p, own}, {values, jacobian, {}, {}}).ok()) << draw;
+    setup.options.set("gauss_points", std::int64_t{60});
+    for (std::size_t first = 0; first < n; first += few) {
+      const auto part = make_tube({pressure.begin() + first, pressure.begin() + first + few}, setup);
+      std::vector<double> alone(3 * few), by(columns * few);
+      ASSERT_TRUE(part->predict({*model, p, own}, {alone, by, {}, {}}).ok()) << draw;
+      const auto compare = [&](const std::vector<double>& many, const std::vector<double>& one, double tolerance) {
+        for (std::size_t column = 0; column < one.size() / few; ++column) {
+          double scale = 1e-12;  // a column of zeros
+          for (std::size_t i = 0; i < n; ++i) scale = std::max(scale, std::abs(many[column * n + i]));
+          for (std::size_t i = 0; i < few; ++i)
+            ASSERT_NEAR(many[column * n + first + i], one[column * few + i], tolerance * scale)
+                << "draw " << draw << ", column " << column << ", row " << first + i;
+        }
+      };
+      compare(values, alone, 1e-11);
+      compare(jacobian, by, 1e-9);
+    }
+  }
+}
+
 /// Tubes of steep fibres in a soft matrix, whose stiffness changes a hundredfold where they are left or taken up (seed
 /// 5, deterministic: no false alarm). Measured files often begin at the highest pressure.
 TEST(TubeRobustness, RowsOfFallingPressureFindTheStatesOfRisingOnes) {

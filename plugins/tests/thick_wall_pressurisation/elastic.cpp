@@ -10,12 +10,16 @@
 
 #include "curve.hpp"
 #include "tunica/detail/safeguarded_newton.hpp"
+#include "tunica/detail/vector_math.hpp"
 
 namespace tunica::thick_wall {
 namespace {
 
 constexpr int newton_iterations = 8;
 constexpr double quadrature_error = 1e-12, tolerable_error = 1e-7;  ///< of y = ln ri
+constexpr double derivative_error = 1e-9;                           ///< of y, where derivatives are taken
+constexpr double interpolation_error = 1e-12;                       ///< of y: a curve that need not be looked at again
+constexpr double force_error = 1e-11;                               ///< of the largest force
 
 /// A step that may be left to first order: it leaves a residual pressure of about (step p_y/p)²/2 relative to p, p
 /// growing exponentially in y. 1e-6 squared is well below 1e-10; where p vanishes p_y takes its place.
@@ -31,11 +35,11 @@ void take(Row& row, const WallForces& forces, const Wall& wall) {
   row.step = (row.pressure - p) / row.forces.p_y;
 }
 
-Status evaluate(std::vector<Row>& rows, bool parameters, Sections& sections, const Wall& wall) {
+Status evaluate(std::vector<Row>& rows, const Sections::Wants& wants, Sections& sections, const Wall& wall) {
   thread_local std::vector<Section> batch;
   batch.clear();
   for (const Row& row : rows) batch.push_back({row.axial_stretch, row.y});
-  Status status = sections.evaluate(batch, parameters);
+  Status status = sections.evaluate(batch, wants);
   for (std::size_t i = 0; i < rows.size() && status.ok(); ++i) take(rows[i], sections.forces(i), wall);
   return status;
 }
@@ -54,7 +58,7 @@ bool rescue(Row& row, Sections& sections, const Wall& wall) {
   return detail::safeguarded_newton(
       [&](double y) {
         const Section section{row.axial_stretch, y};
-        if (!sections.evaluate({&section, 1}, false).ok())
+        if (!sections.evaluate({&section, 1}, {}).ok())
           return detail::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
         Row trial = row;
         trial.y = y;
@@ -64,19 +68,15 @@ bool rescue(Row& row, Sections& sections, const Wall& wall) {
       row.y);
 }
 
-void note_error(const std::vector<Row>& rows, const Sections& sections, double& error) {
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    error = std::max(error, sections.pressure_error(i) / rows[i].forces.p_y);
-}
-
 /// Newton's method on all rows until every step may be left to first order.
-Status polish(std::vector<Row>& rows, Sections& sections, const Wall& wall, double& error) {
+Status polish(std::vector<Row>& rows, bool force, Sections& sections, const Wall& wall, double& error) {
+  const Sections::Wants wants{.geometry = false, .force = force};
   thread_local std::vector<double> start;
   start.clear();
   for (const Row& row : rows) start.push_back(row.y);
   const auto done = [](const Row& row) { return row.forces.p_y > 0 && small(row.step, row.pressure, row.forces.p_y); };
   for (int iteration = 0; iteration < newton_iterations; ++iteration) {
-    if (Status status = evaluate(rows, false, sections, wall); !status.ok()) return status;
+    if (Status status = evaluate(rows, wants, sections, wall); !status.ok()) return status;
     if (std::all_of(rows.begin(), rows.end(), done)) {
       note_error(rows, sections, error);
       return Status();
@@ -91,7 +91,7 @@ Status polish(std::vector<Row>& rows, Sections& sections, const Wall& wall, doub
       return Status::failed("thick_wall_pressurisation: Newton's method finds no equilibrium at " +
                             TubeRows::row_name(i, rows[i].pressure, rows[i].axial_stretch));
   }
-  Status status = evaluate(rows, false, sections, wall);
+  Status status = evaluate(rows, wants, sections, wall);
   note_error(rows, sections, error);
   return status;
 }
@@ -99,41 +99,51 @@ Status polish(std::vector<Row>& rows, Sections& sections, const Wall& wall, doub
 /// The unpressurised states first: where there is support, rows refer to them.
 Status polish_all(bool want_free_rows, Sections& sections, const Wall& wall, Solution& solution) {
   if (want_free_rows || wall.tether != 0) {
-    if (Status status = polish(solution.free_rows, sections, wall, solution.error); !status.ok()) return status;
+    if (Status status = polish(solution.free_rows, false, sections, wall, solution.error); !status.ok()) return status;
     for (Row& row : solution.rows) {
       const Row& without = solution.free_rows[row.free_row];
       if (wall.tether != 0) row.support_free = outer_radius(wall, without.y + without.step, without.axial_stretch);
     }
   }
-  return polish(solution.rows, sections, wall, solution.error);
+  return polish(solution.rows, solution.force, sections, wall, solution.error);
 }
 
-/// Starts of all rows from the curve at their one axial stretch, and the unpressurised state there; false = they have
-/// to be followed.
-bool on_curve(Path& path, Equilibrium free, std::span<const double> pressure, std::span<const double> axial_stretch,
-              Sections& sections, Solution& solution) {
-  thread_local std::vector<double> y;
+/// All rows from the curve at their one axial stretch, and the unpressurised state there; false = they have to be
+/// followed. Where the curve says that it is exact, `exact`, nothing is left to be done; else rows begin there.
+bool on_curve(std::span<const double> pressure, std::span<const double> axial_stretch, Sections& sections,
+              const Wall& wall, Solution& solution, bool& exact) {
+  thread_local std::vector<double> wanted, y, force;
   const std::size_t n = pressure.size();
   const double lz = axial_stretch[0];
   if (n < fewest_on_curve ||
       std::any_of(axial_stretch.begin(), axial_stretch.end(), [lz](double l) { return l != lz; }))
     return false;
-  y.resize(n);
-  if (!path.follow(free, lz, 0).ok() || !find_on_curve(free, pressure, sections, y, solution.error)) {
-    solution.error = 0;
-    return false;
-  }
-  solution.free_rows.push_back({.axial_stretch = lz, .pressure = 0, .y = free.y});
-  for (std::size_t i = 0; i < n; ++i)
+  wanted.assign(pressure.begin(), pressure.end());
+  wanted.push_back(0);
+  y.resize(wanted.size());
+  force.resize(solution.force ? wanted.size() : 0);
+  CurveError error;
+  if (!find_on_curve(lz, wanted, wall, sections, y, force, error)) return false;
+  solution.error = error.quadrature;
+  exact = error.interpolation < interpolation_error && error.force < force_error;
+  solution.free_rows.push_back({.axial_stretch = lz, .pressure = 0, .y = y[n]});
+  for (std::size_t i = 0; i < n; ++i) {
     solution.rows.push_back({.axial_stretch = lz, .pressure = pressure[i], .y = y[i], .step = 0, .free_row = 0});
+    if (solution.force) solution.rows.back().forces.F = force[i];
+  }
   return true;
 }
 
 }  // namespace
 
-Status evaluate_rows(std::vector<Row>& rows, bool parameters, Sections& sections, const Wall& wall) {
+void note_error(const std::vector<Row>& rows, Sections& sections, double& error) {
+  const std::span<const double> errors = sections.pressure_errors();
+  for (std::size_t i = 0; i < rows.size(); ++i) error = std::max(error, errors[i] / rows[i].forces.p_y);
+}
+
+Status evaluate_rows(std::vector<Row>& rows, const Sections::Wants& wants, Sections& sections, const Wall& wall) {
   for (Row& row : rows) row.y += row.step;
-  return evaluate(rows, parameters, sections, wall);
+  return evaluate(rows, wants, sections, wall);
 }
 
 Status solve_rows(std::span<const double> pressure, std::span<const double> axial_stretch, bool want_free_rows,
@@ -142,16 +152,17 @@ Status solve_rows(std::span<const double> pressure, std::span<const double> axia
   solution.rows.clear();
   solution.free_rows.clear();
   solution.error = 0;
-  Path path(sections, wall);
-  Equilibrium free, at;  // the unpressurised state, and the one of the row
-  Status status = path.begin(free);
-  if (status.ok() && !supported && on_curve(path, free, pressure, axial_stretch, sections, solution)) {
-    if (solution.error > enough) return {};
+  bool exact = false;
+  if (!supported && on_curve(pressure, axial_stretch, sections, wall, solution, exact)) {
+    if (solution.error > enough || exact) return {};
     if (polish_all(want_free_rows, sections, wall, solution).ok()) return {};
     solution.rows.clear();
     solution.free_rows.clear();
     solution.error = 0;
   }
+  Path path(sections, wall);
+  Equilibrium free, at;  // the unpressurised state, and the one of the row
+  Status status = path.begin(free);
   for (std::size_t i = 0; i < pressure.size() && status.ok(); ++i) {
     const double lz = axial_stretch[i], p = pressure[i];
     if (i == 0 || lz != axial_stretch[i - 1]) {
@@ -185,51 +196,68 @@ Status refine_rows(bool want_free_rows, Sections& sections, const Wall& wall, So
   return polish_all(want_free_rows, sections, wall, solution);
 }
 
-double channel_value(Channel channel, const Wall& wall, const Row& row) {
-  const double y = row.y + row.step, ro = outer_radius(wall, y, row.axial_stretch);
-  switch (channel) {
-    case Channel::outer_diameter:
-      return 2 * ro;
-    case Channel::inner_diameter:
-      return 2 * std::exp(y);
-    case Channel::outer_diameter_stretch:
-      return ro / wall.Ro;
-    case Channel::inner_diameter_stretch:
-      return std::exp(y) / wall.Ri;
-    case Channel::axial_force:
-      break;
-  }
-  // The support presses on the outer face: F_reduced = F_wall − π p_o ro².
-  const double F = row.forces.F + row.forces.F_y * row.step;
-  if (row.support_free == 0) return F;
-  return F - std::numbers::pi * support(wall, y, row.axial_stretch, row.support_free) * ro * ro;
-}
-
 Status prescribed(const Tube& tube, const TestInput& input, std::vector<double>& pressure,
                   std::vector<double>& axial_stretch) {
   return tube.prescribed(input, input.test_parameters[axial_stretch_error], pressure, axial_stretch);
 }
 
 Status write_rows(const Tube& tube, const Wall& wall, std::span<const Row> rows, const TestOutput& output) {
+  thread_local std::vector<double> radii;
   const std::size_t n = rows.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Row& row = rows[i];
-    const double F = channel_value(Channel::axial_force, wall, row);
-    if (!std::isfinite(F) || !std::isfinite(row.y + row.step))
+  radii.resize(2 * n);
+  double* const ri = radii.data();
+  double* const ro = ri + n;
+  detail::vectorised([ri, ro, n, V = wall.V, row = rows.data()] {
+    for (std::size_t i = 0; i < n; ++i) {
+      ri[i] = row[i].y + row[i].step;
+      ro[i] = row[i].axial_stretch;
+    }
+    TUNICA_LANES
+    for (std::size_t i = 0; i < n; ++i) {
+      ri[i] = detail::lane_exp(ri[i]);
+      ro[i] = std::sqrt(ri[i] * ri[i] + V / ro[i]);
+    }
+  });
+  // The support presses on the outer face: F_reduced = F_wall − π p_o ro².
+  const auto outside = [&](std::size_t i) {
+    return rows[i].support_free > 0 ? wall.tether * (ro[i] - rows[i].support_free) / wall.Ro : 0;
+  };
+  const auto force = [&](std::size_t i) {
+    return rows[i].forces.F + rows[i].forces.F_y * rows[i].step - std::numbers::pi * outside(i) * ro[i] * ro[i];
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    if (!std::isfinite(ri[i]) || !std::isfinite(rows[i].forces.F) || !std::isfinite(rows[i].forces.F_y))
       return Status::failed("thick_wall_pressurisation: the stress overflows at " +
-                            TubeRows::row_name(i, row.pressure, row.axial_stretch));
-    for (std::size_t k = 0; k < tube.channels.size() && !output.values.empty(); ++k)
-      output.values[k * n + i] =
-          tube.channels[k] == Channel::axial_force ? F : channel_value(tube.channels[k], wall, row);
-    if (output.diagnostics.empty()) continue;
-    // Mean stresses from equilibrium of half a ring and of a cross-section.
-    const double ri = inner_radius(row), ro = outer_radius(wall, row.y + row.step, row.axial_stretch);
-    const double outside =
-        row.support_free > 0 ? support(wall, row.y + row.step, row.axial_stretch, row.support_free) : 0;
-    output.diagnostics[i] = ri / wall.Ri;
-    output.diagnostics[n + i] = (row.pressure * ri - outside * ro) / (ro - ri);
-    output.diagnostics[2 * n + i] =
-        (F + std::numbers::pi * row.pressure * ri * ri) / (std::numbers::pi * (ro * ro - ri * ri));
+                            TubeRows::row_name(i, rows[i].pressure, rows[i].axial_stretch));
+  for (std::size_t k = 0; k < tube.channels.size() && !output.values.empty(); ++k) {
+    double* const to = output.values.data() + k * n;
+    const auto scaled = [&](const double* radius, double factor) {
+      for (std::size_t i = 0; i < n; ++i) to[i] = factor * radius[i];
+    };
+    switch (tube.channels[k]) {
+      case Channel::outer_diameter:
+        scaled(ro, 2);
+        break;
+      case Channel::inner_diameter:
+        scaled(ri, 2);
+        break;
+      case Channel::outer_diameter_stretch:
+        scaled(ro, 1 / wall.Ro);
+        break;
+      case Channel::inner_diameter_stretch:
+        scaled(ri, 1 / wall.Ri);
+        break;
+      case Channel::axial_force:
+        for (std::size_t i = 0; i < n; ++i) to[i] = force(i);
+    }
+  }
+  if (output.diagnostics.empty()) return {};
+  // Mean stresses from equilibrium of half a ring and of a cross-section.
+  for (std::size_t i = 0; i < n; ++i) {
+    output.diagnostics[i] = ri[i] / wall.Ri;
+    output.diagnostics[n + i] = (rows[i].pressure * ri[i] - outside(i) * ro[i]) / (ro[i] - ri[i]);
+    output.diagnostics[2 * n + i] = (force(i) + std::numbers::pi * rows[i].pressure * ri[i] * ri[i]) /
+                                    (std::numbers::pi * (ro[i] * ro[i] - ri[i] * ri[i]));
   }
   return {};
 }
@@ -244,39 +272,56 @@ Status predict_elastic(const Tube& tube, const Rule* rule, const TestInput& inpu
   Wall wall(tube, input.test_parameters);
   const Layers layers(input);
   if (Status status = prescribed(tube, input, pressure, axial_stretch); !status.ok()) return status;
+  // One wall where its two layers are alike.
+  const bool whole = rule == nullptr && !wall.layered && wall.inner == wall.outer;
+  solution.force = !output.diagnostics.empty() || std::ranges::count(tube.channels, Channel::axial_force) > 0;
   const auto solve = [&](const Rule& with, double enough, bool from_found) {
     wall = Wall(tube, input.test_parameters);
     Status status = close_sector(tube, layers, with, sections, wall, parameters ? &sector : nullptr);
     if (!status.ok()) return status;
-    sections.begin(layers, wall, with);
+    sections.begin(layers, wall, with, whole);
     if (from_found && refine_rows(parameters, sections, wall, solution).ok()) return Status();
     return solve_rows(pressure, axial_stretch, parameters, sections, wall, enough, solution);
   };
   constexpr double any = std::numeric_limits<double>::infinity();
+  const auto differentiated = [&] {
+    return differentiate(tube, wall, sector, solution, sections, input.model_parameters.size(), output.jacobian,
+                         output.abscissa_derivative);
+  };
   if (rule != nullptr) {
     if (Status status = solve(*rule, any, false); !status.ok()) return status;
-  } else {
-    // From the coarsest on; a failure counts where a fine rule confirms it.
-    const std::span<const Rule> all = rules();
-    constexpr std::size_t confirming = 7;
-    bool found = false;
-    for (std::size_t k = 0; k < all.size();) {
-      Status status = solve(all[k], k + 1 < all.size() ? quadrature_error : any, found);
-      found = status.ok();
-      if (status.ok() && solution.error <= quadrature_error) break;
-      if (!status.ok() && k >= confirming) return status;
-      if (status.ok() && k + 1 == all.size() && solution.error > tolerable_error)
-        return Status::failed(
-            "thick_wall_pressurisation: the stress varies too sharply through the wall to integrate it, "
-            "within row 1 to " +
-            std::to_string(pressure.size()));
-      k = status.ok() ? finer(all, k, solution.error) : confirming;
-    }
+    if (!derivatives) return write_rows(tube, wall, solution.rows, output);
+    Status status = differentiated();
+    return status.ok() ? write_rows(tube, wall, solution.rows, output) : status;
   }
-  if (derivatives) {
-    Status status = differentiate(tube, wall, sector, solution, sections, input.model_parameters.size(),
-                                  output.jacobian, output.abscissa_derivative);
-    if (!status.ok()) return status;
+  // From one on that is good enough for most walls; a failure counts where a fine rule confirms it.
+  const std::span<const Rule> all = rules();
+  constexpr std::size_t confirming = 7;
+  std::size_t k = whole ? 3 : 2;
+  for (bool found = false;;) {
+    Status status = solve(all[k], k + 1 < all.size() ? quadrature_error : any, found);
+    found = status.ok();
+    if (status.ok() && solution.error <= quadrature_error) break;
+    if (!status.ok() && k >= confirming) return status;
+    if (status.ok() && k + 1 == all.size()) {
+      if (solution.error <= tolerable_error) break;
+      return Status::failed(
+          "thick_wall_pressurisation: the stress varies too sharply through the wall to integrate it, within row 1 "
+          "to " +
+          std::to_string(pressure.size()));
+    }
+    k = status.ok() ? finer(all, k, solution.error) : confirming;
+  }
+  if (!derivatives) return write_rows(tube, wall, solution.rows, output);
+  if (!whole || !parameters) {
+    Status status = differentiated();
+    return status.ok() ? write_rows(tube, wall, solution.rows, output) : status;
+  }
+  // Each layer, half as thick, needs fewer points than the whole.
+  for (k -= std::min<std::size_t>(k, 2);; ++k) {
+    sections.begin(layers, wall, all[k]);
+    if (Status status = differentiated(); !status.ok()) return status;
+    if (solution.error <= derivative_error || k + 1 == all.size()) break;
   }
   return write_rows(tube, wall, solution.rows, output);
 }

@@ -21,27 +21,27 @@ struct Row {
 /// All rows of an elastic material, and where they are needed the unpressurised states at their axial stretches.
 struct Solution {
   std::vector<Row> free_rows, rows;
-  double error = 0;  ///< estimate of what quadrature leaves in y, the largest of all
+  bool force = true;  ///< whether rows are to have their axial force
+  double error = 0;   ///< estimate of what quadrature leaves in y, the largest of all
 };
 
-/// Finds every row on the path from rest; then Newton's method on all of them at once. Where quadrature is seen to
-/// leave more than `enough` in y before that, it is left out: `error` says so, and refine_rows() is called with a finer
-/// rule.
+/// Finds every row on the path from rest; then, where the curve through samples is not exact enough, Newton's method on
+/// all of them at once. Where quadrature is seen to leave more than `enough` in y before that, it is left out: `error`
+/// says so, and refine_rows() is called with a finer rule.
 Status solve_rows(std::span<const double> pressure, std::span<const double> axial_stretch, bool want_free_rows,
                   Sections& sections, const Wall& wall, double enough, Solution& solution);
 /// The same rows with another rule, from where they are.
 Status refine_rows(bool want_free_rows, Sections& sections, const Wall& wall, Solution& solution);
 
-/// Takes up the steps left and evaluates once more, with parameter derivatives; `sections` then holds these rows.
-Status evaluate_rows(std::vector<Row>& rows, bool parameters, Sections& sections, const Wall& wall);
+/// Takes up the steps left and evaluates once more; `sections` then holds these rows.
+Status evaluate_rows(std::vector<Row>& rows, const Sections::Wants& wants, Sections& sections, const Wall& wall);
 
-double channel_value(Channel channel, const Wall& wall, const Row& row);
-/// Inner radius of the row.
-inline double inner_radius(const Row& row) { return std::exp(row.y + row.step); }
+/// Lets `error` grow to the largest estimate of what quadrature leaves in y of rows that have just been evaluated.
+void note_error(const std::vector<Row>& rows, Sections& sections, double& error);
 
 /// Jacobian by model and own parameters, and derivatives by the abscissae: implicit differentiation of the equilibrium
 /// of every row, of its unpressurised state and of the closing of the sector. The rows have been evaluated with
-/// parameters last. Empty spans are not wanted.
+/// parameters last. Empty spans are not wanted. `solution.error` is then that of this rule.
 Status differentiate(const Tube& tube, const Wall& wall, const SectorDerivative& sector, Solution& solution,
                      Sections& sections, std::size_t model_parameters, std::span<double> jacobian,
                      std::span<double> abscissa_derivative);

@@ -20,7 +20,7 @@ constexpr double largest_guess = 0.1;
 bool solve(Row& row, const Memory& memory, Sections& sections, const Wall& wall) {
   const auto evaluate = [&](double y, const Memory& with) {
     const Section section{row.axial_stretch, y};
-    const Status status = sections.evaluate({&section, 1}, false, with);
+    const Status status = sections.evaluate({&section, 1}, {}, with);
     row.forces = sections.forces(0);
     return status.ok();
   };

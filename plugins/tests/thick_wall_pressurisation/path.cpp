@@ -20,7 +20,7 @@ constexpr int budget = 1000;                                            ///< eva
 Status Path::begin(Equilibrium& at) {
   at = {.y = std::log(wall_.Ri)};
   const Section rest{at.axial_stretch, at.y};
-  if (Status status = sections_.evaluate({&rest, 1}, false); !status.ok()) return status;
+  if (Status status = sections_.evaluate({&rest, 1}, {}); !status.ok()) return status;
   const WallForces forces = sections_.forces(0);
   at.p = forces.p;
   at.p_y = forces.p_y;
@@ -32,7 +32,7 @@ Status Path::begin(Equilibrium& at) {
 /// Newton's correction of y towards the trial's own pressure, and the slopes there.
 Path::Trouble Path::evaluate(Equilibrium& trial, double support_free, double& correction) {
   const Section section{trial.axial_stretch, trial.y};
-  if (!sections_.evaluate({&section, 1}, false).ok()) return Trouble::overflow;
+  if (!sections_.evaluate({&section, 1}, {}).ok()) return Trouble::overflow;
   const WallForces forces = sections_.forces(0);
   double p = forces.p;
   trial.p_y = forces.p_y;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -11,10 +9,14 @@
 
 namespace tunica::thick_wall {
 
+/// What a smooth function's last Legendre or Chebyshev coefficients say of one as far behind them as they are from the
+/// first: coefficients fall geometrically, so it is about last²/mean, with the mean of |f| for the first.
+inline double coefficient_behind(double last, double mean) { return last < mean ? last * (last / mean) : last; }
+
 /// The Gauss–Legendre rule on [0, 1], and what it says of its own error.
 ///
-/// From the same samples come the last two Legendre coefficients a of the integrand. Coefficients of a smooth function
-/// fall geometrically, a_m ~ ρ^−m, and the rule's error is of the order of a_2n ~ a²/M, M the mean of |f|.
+/// From the same samples come the last two Legendre coefficients a of the integrand. A rule of n points leaves an error
+/// of the order of a_2n.
 struct Rule {
   std::vector<double> node, weight;
   std::vector<double> last, last_but_one;  ///< (2m + 1) w P_m, m = n − 1 and n − 2: a_m by a scalar product
@@ -33,18 +35,6 @@ struct Rule {
       last.push_back((2 * points - 1) * weight[k] * boost::math::legendre_p(points - 1, x));
       last_but_one.push_back((2 * points - 3) * weight[k] * boost::math::legendre_p(points - 2, x));
     }
-  }
-
-  /// Estimate of the error of Σ w f, for f at the nodes.
-  [[nodiscard]] double error(const double* f) const {
-    double mean = 0, a = 0, b = 0;
-    for (std::size_t k = 0; k < node.size(); ++k) {
-      mean += weight[k] * std::abs(f[k]);
-      a += last[k] * f[k];
-      b += last_but_one[k] * f[k];
-    }
-    const double largest = std::max(std::abs(a), std::abs(b));
-    return largest == 0 ? 0 : largest * std::min(1., largest / mean);
   }
 };
 

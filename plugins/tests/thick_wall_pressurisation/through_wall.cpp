@@ -64,7 +64,7 @@ Status through_wall(const Tube& tube, const TestInput& input, std::span<const st
   sections.begin(layers, wall, rule);
   if (Status status = solve_rows(pressure, axial_stretch, false, sections, wall, any_error, solution); !status.ok())
     return status;
-  if (Status status = evaluate_rows(solution.rows, false, sections, wall); !status.ok()) return status;
+  if (Status status = evaluate_rows(solution.rows, {}, sections, wall); !status.ok()) return status;
   for (const std::size_t row : rows) {
     found.push_back(table_of(sections, row, wall, solution.rows[row]));
     found.back().row = row;
