@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tunica/detail/vector_level.hpp"
+#include "tunica/detail/vector_math.hpp"
 
 namespace tunica::thick_wall {
 namespace {
@@ -264,15 +265,12 @@ bool find_on_curve(double axial_stretch, std::span<const double> pressure, const
     for (const Sample& one : at) largest = std::max(largest, std::abs(one.F));
     error.force = F.error() / largest;
   }
-  bool found = true;
-  const double low = -1 - beyond_samples / half, high = 1 + beyond_samples / half;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    found &= y[i] > low && y[i] < high;
-    if (!(std::abs(half * last[i]) < last_step) || !(std::abs(y[i]) < farthest_out))
-      error.interpolation = std::numeric_limits<double>::infinity();
-    y[i] = middle + half * y[i];
-  }
-  return found;
+  const std::size_t n = y.size();
+  if (detail::any_not_below(y.data(), n, 1 + beyond_samples / half)) return false;
+  if (detail::any_not_below(last.data(), n, last_step / half) || detail::any_not_below(y.data(), n, farthest_out))
+    error.interpolation = std::numeric_limits<double>::infinity();
+  for (double& t : y) t = middle + half * t;
+  return true;
 }
 
 }  // namespace tunica::thick_wall

@@ -118,18 +118,20 @@ bool on_curve(std::span<const double> pressure, std::span<const double> axial_st
   if (n < fewest_on_curve ||
       std::any_of(axial_stretch.begin(), axial_stretch.end(), [lz](double l) { return l != lz; }))
     return false;
-  wanted.assign(pressure.begin(), pressure.end());
-  wanted.push_back(0);
-  y.resize(wanted.size());
-  force.resize(solution.force ? wanted.size() : 0);
+  wanted.assign(1, 0);  // the unpressurised state
+  wanted.insert(wanted.end(), pressure.begin(), pressure.end());
+  y.resize(n + 1);
+  force.resize(solution.force ? n + 1 : 0);
   CurveError error;
   if (!find_on_curve(lz, wanted, wall, sections, y, force, error)) return false;
   solution.error = error.quadrature;
   exact = error.interpolation < interpolation_error && error.force < force_error;
-  solution.free_rows.push_back({.axial_stretch = lz, .pressure = 0, .y = y[n]});
+  solution.free_rows.assign(1, {.axial_stretch = lz, .pressure = 0, .y = y[0]});
+  solution.rows.assign(n, {.axial_stretch = lz});
   for (std::size_t i = 0; i < n; ++i) {
-    solution.rows.push_back({.axial_stretch = lz, .pressure = pressure[i], .y = y[i], .step = 0, .free_row = 0});
-    if (solution.force) solution.rows.back().forces.F = force[i];
+    solution.rows[i].pressure = pressure[i];
+    solution.rows[i].y = y[i + 1];
+    if (solution.force) solution.rows[i].forces.F = force[i + 1];
   }
   return true;
 }
