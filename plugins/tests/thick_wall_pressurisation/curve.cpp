@@ -46,8 +46,8 @@ double between(const Sample& a, const Sample& b, double p) {
 
 /// The unpressurised state, from one batch along the path that stretches the tube. Each state is guessed, and corrected
 /// by one step of Newton's method. False where the pressure does not rise, where a guess is far off, or where states
-/// are not where the tangents of their neighbours point to.
-bool stretch(double axial_stretch, const Wall& wall, Sections& sections, Equilibrium& free) {
+/// are not where the tangents of their neighbours point to: then the path has to be followed.
+bool stretch_at_once(double axial_stretch, const Wall& wall, Sections& sections, Equilibrium& free) {
   constexpr std::size_t most = 8;
   constexpr double axial_step = 0.1, far_off = 0.1, aligned = 3e-3;  // of ln λz; of y
   const double whole = std::log(axial_stretch), steps = std::ceil(std::abs(whole) / axial_step);
@@ -229,7 +229,12 @@ bool find_on_curve(double axial_stretch, std::span<const double> pressure, const
   Equilibrium free;
   double end;
   if (rules().front().node.size() < rule.node.size()) sections.take(rules().front());  // where to look
-  const bool reached = stretch(axial_stretch, wall, sections, free) && reach(free, *highest, sections, end);
+  bool reached = stretch_at_once(axial_stretch, wall, sections, free);
+  if (!reached) {
+    Path path(sections, wall);
+    reached = path.begin(free).ok() && path.follow(free, axial_stretch, 0).ok();
+  }
+  reached = reached && reach(free, *highest, sections, end);
   sections.take(rule);
   if (!reached || !(end - free.y > least_range)) return false;
   std::array<Sample, count> at;

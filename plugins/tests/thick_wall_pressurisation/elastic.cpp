@@ -16,6 +16,7 @@ namespace tunica::thick_wall {
 namespace {
 
 constexpr int newton_iterations = 8;
+constexpr std::size_t confirming = 7;                               ///< of the rules: one so fine that a failure counts
 constexpr double quadrature_error = 1e-12, tolerable_error = 1e-7;  ///< of y = ln ri
 constexpr double derivative_error = 1e-9;                           ///< of y, where derivatives are taken
 constexpr double interpolation_error = 1e-12;                       ///< of y: a curve that need not be looked at again
@@ -162,6 +163,10 @@ Status solve_rows(std::span<const double> pressure, std::span<const double> axia
     solution.free_rows.clear();
     solution.error = 0;
   }
+  // Rows only begin where the path leads to.
+  const Rule& rule = sections.rule();
+  if (rule.node.size() < rules()[confirming].node.size() && rule.node.size() > rules().front().node.size())
+    sections.take(rules().front());
   Path path(sections, wall);
   Equilibrium free, at;  // the unpressurised state, and the one of the row
   Status status = path.begin(free);
@@ -185,6 +190,7 @@ Status solve_rows(std::span<const double> pressure, std::span<const double> axia
   if (!status.ok())
     return Status::failed(fmt::format("thick_wall_pressurisation: no equilibrium at {}: {}",
                                       TubeRows::row_name(0, pressure[0], axial_stretch[0]), status.reason()));
+  sections.take(rule);
   return polish_all(want_free_rows, sections, wall, solution);
 }
 
@@ -286,46 +292,39 @@ Status predict_elastic(const Tube& tube, const Rule* rule, const TestInput& inpu
     return solve_rows(pressure, axial_stretch, parameters, sections, wall, enough, solution);
   };
   constexpr double any = std::numeric_limits<double>::infinity();
+  const std::span<const Rule> all = rules();
+  std::size_t k = whole ? 3 : 2;  // good enough for most walls
+  for (bool found = false; rule == nullptr;) {
+    const bool finest = k + 1 == all.size();
+    Status status = solve(all[k], finest ? any : quadrature_error, found);
+    found = status.ok();
+    if (!found && k >= confirming) return status;
+    if (found && solution.error <= (finest ? tolerable_error : quadrature_error)) break;
+    if (found && finest)
+      return Status::failed(
+          "thick_wall_pressurisation: the stress varies too sharply through the wall to integrate it, "
+          "within row 1 to " +
+          std::to_string(pressure.size()));
+    k = found ? finer(all, k, solution.error) : confirming;
+  }
+  if (rule != nullptr)
+    if (Status status = solve(*rule, any, false); !status.ok()) return status;
+  if (!derivatives) return write_rows(tube, wall, solution.rows, output);
+
   const auto differentiated = [&] {
     return differentiate(tube, wall, sector, solution, sections, input.model_parameters.size(), output.jacobian,
                          output.abscissa_derivative);
   };
-  if (rule != nullptr) {
-    if (Status status = solve(*rule, any, false); !status.ok()) return status;
-    if (!derivatives) return write_rows(tube, wall, solution.rows, output);
-    Status status = differentiated();
-    return status.ok() ? write_rows(tube, wall, solution.rows, output) : status;
-  }
-  // From one on that is good enough for most walls; a failure counts where a fine rule confirms it.
-  const std::span<const Rule> all = rules();
-  constexpr std::size_t confirming = 7;
-  std::size_t k = whole ? 3 : 2;
-  for (bool found = false;;) {
-    Status status = solve(all[k], k + 1 < all.size() ? quadrature_error : any, found);
-    found = status.ok();
-    if (status.ok() && solution.error <= quadrature_error) break;
-    if (!status.ok() && k >= confirming) return status;
-    if (status.ok() && k + 1 == all.size()) {
-      if (solution.error <= tolerable_error) break;
-      return Status::failed(
-          "thick_wall_pressurisation: the stress varies too sharply through the wall to integrate it, within row 1 "
-          "to " +
-          std::to_string(pressure.size()));
-    }
-    k = status.ok() ? finer(all, k, solution.error) : confirming;
-  }
-  if (!derivatives) return write_rows(tube, wall, solution.rows, output);
-  if (!whole || !parameters) {
-    Status status = differentiated();
-    return status.ok() ? write_rows(tube, wall, solution.rows, output) : status;
-  }
-  // Each layer, half as thick, needs fewer points than the whole.
-  for (k -= std::min<std::size_t>(k, 2);; ++k) {
+  if (whole && parameters) {  // each layer, half as thick, needs fewer points than the whole
+    k -= 2;
     sections.begin(layers, wall, all[k]);
-    if (Status status = differentiated(); !status.ok()) return status;
-    if (solution.error <= derivative_error || k + 1 == all.size()) break;
   }
-  return write_rows(tube, wall, solution.rows, output);
+  Status status = differentiated();
+  while (status.ok() && whole && parameters && solution.error > derivative_error && ++k < all.size()) {
+    sections.begin(layers, wall, all[k]);
+    status = differentiated();
+  }
+  return status.ok() ? write_rows(tube, wall, solution.rows, output) : status;
 }
 
 }  // namespace tunica::thick_wall

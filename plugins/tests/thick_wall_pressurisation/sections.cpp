@@ -201,6 +201,16 @@ void Sections::set_shapes(std::span<const Section> sections) {
 void Sections::set_stretches() {
   over_points([n = n_, count = count_, a_of = numbers(a), b_of = numbers(b), z_of = numbers(cz), c = c_.data()](
                   auto, auto, auto inverse) TUNICA_INLINE {
+    if (count == 1) {
+      const double a_1 = *a_of, b_1 = *b_of, z_1 = *z_of;
+      TUNICA_LANES
+      for (std::size_t m = 0; m < n; ++m) {
+        c[m] = b_1 + a_1 * inverse.all[m];
+        c[n + m] = z_1;
+        c[2 * n + m] = 1 / (c[m] * z_1);
+      }
+      return;
+    }
     for (std::size_t m = 0; m * count < n; ++m) {
       double* const ct = c + m * count;
       const auto per_R2 = inverse(m);
@@ -253,56 +263,70 @@ Status Sections::respond(bool parameters, const Memory& memory) {
 /// and q = 2Z − T, and of their derivatives by c at fixed c_z and by c_z at fixed c, where c_r = 1/(c c_z).
 template <bool geometry, bool force>
 void Sections::integrate() {
+  constexpr std::size_t sums = force ? 8 : geometry ? 4 : 2;
   std::fill_n(numbers(I), 8 * count_, 0.0);
-  over_points(
-      [this, n = n_, count = count_, nodes = rule_->node.size()](auto weight, auto R2, auto inverse) TUNICA_INLINE {
-        double* const sum = numbers(I);
-        for (std::size_t m = 0; m * count < n; ++m) {
-          const std::size_t first = m * count;
-          const double* const c = c_.data() + first;
-          const double* const cz_of = c + n;
-          const double* const cr = c + 2 * n;
-          const double* const g = gradient_.data() + first;
-          const double* const H = hessian_.data() + first;
-          double* const h = h_.data() + first;
-          double* const h_c = h_c_.data() + first;
-          double* const q = q_.data() + first;
-          double* const q_c = q_c_.data() + first;
-          const double at_rest = rest_ == nullptr ? 0 : rest_->value[layers_->size() == 1 ? 0 : slot_layer_[m / nodes]];
-          const auto w = weight(m), s = R2(m), per_s = inverse(m);
-          TUNICA_LANES
-          for (std::size_t i = 0; i < count; ++i) {
-            const double gt = g[i], gr = g[2 * n + i], Htt = H[i], Hrr = H[2 * n + i], Htr = H[5 * n + i];
-            const double per_c = cz_of[i] * cr[i], by_c = cr[i] * per_c;  // −∂c_r/∂c
-            const double normal = cr[i] * gr;
-            const double normal_c = by_c * (cr[i] * Hrr + gr) - cr[i] * Htr;  // −∂(c_r g_r)/∂c
-            const double T = 2 * (c[i] * gt - normal) - at_rest;
-            const double T_c = 2 * (gt + c[i] * (Htt - by_c * Htr) + normal_c);
-            h[i] = T * per_c;
-            h_c[i] = (T_c - h[i]) * per_c;
-            const double wh_c = w[i] * h_c[i];
-            sum[i] += w[i] * h[i];
-            sum[count + i] += wh_c * per_s[i];
-            if constexpr (geometry) {
-              const double by_z = cr[i] * (c[i] * cr[i]), Htz = H[3 * n + i], Hzr = H[4 * n + i];  // −∂c_r/∂c_z
-              const double normal_z = by_z * (cr[i] * Hrr + gr) - cr[i] * Hzr;
-              const double T_z = 2 * (c[i] * (Htz - by_z * Htr) + normal_z);
-              sum[2 * count + i] += wh_c;
-              sum[3 * count + i] += w[i] * T_z * per_c;
-              if constexpr (force) {
-                const double gz = g[n + i], Hzz = H[n + i], ws = w[i] * s[i];
-                q[i] = 4 * (cz_of[i] * gz - normal) - T;
-                q_c[i] = 4 * (cz_of[i] * (Htz - by_c * Hzr) + normal_c) - T_c;
-                const double q_z = 4 * (gz + cz_of[i] * (Hzz - by_z * Hzr) + normal_z) - T_z;
-                sum[4 * count + i] += ws * q[i];
-                sum[5 * count + i] += w[i] * q_c[i];
-                sum[6 * count + i] += ws * q_c[i];
-                sum[7 * count + i] += ws * q_z;
-              }
-            }
-          }
+  if (count_ == 1) grow(terms_, sums * n_);
+  over_points([this, n = n_, count = count_, nodes = rule_->node.size()](auto weight, auto R2,
+                                                                         auto inverse) TUNICA_INLINE {
+    double* const sum = numbers(I);
+    /// Calls add(number, term) for point k, of weight w and R² = s.
+    const auto terms = [this, n](std::size_t k, double w, double s, double per_s, double at_rest,
+                                 const auto& add) TUNICA_INLINE {
+      const double* const c_of = c_.data();
+      const double* const g = gradient_.data();
+      const double* const H = hessian_.data();
+      const double c = c_of[k], z = c_of[n + k], cr = c_of[2 * n + k], gt = g[k], gr = g[2 * n + k], Htt = H[k],
+                   Hrr = H[2 * n + k], Htr = H[5 * n + k];
+      const double per_c = z * cr, by_c = cr * per_c;  // −∂c_r/∂c
+      const double normal = cr * gr;
+      const double normal_c = by_c * (cr * Hrr + gr) - cr * Htr;  // −∂(c_r g_r)/∂c
+      const double T = 2 * (c * gt - normal) - at_rest;
+      const double T_c = 2 * (gt + c * (Htt - by_c * Htr) + normal_c);
+      const double h = T * per_c, h_c = (T_c - h) * per_c, wh_c = w * h_c;
+      h_[k] = h;
+      h_c_[k] = h_c;
+      add(0, w * h);
+      add(1, wh_c * per_s);
+      if constexpr (geometry) {
+        const double by_z = cr * (c * cr), Htz = H[3 * n + k], Hzr = H[4 * n + k];  // −∂c_r/∂c_z
+        const double normal_z = by_z * (cr * Hrr + gr) - cr * Hzr;
+        const double T_z = 2 * (c * (Htz - by_z * Htr) + normal_z);
+        add(2, wh_c);
+        add(3, w * T_z * per_c);
+        if constexpr (force) {
+          const double gz = g[n + k], Hzz = H[n + k], ws = w * s;
+          const double q = 4 * (z * gz - normal) - T, q_c = 4 * (z * (Htz - by_c * Hzr) + normal_c) - T_c;
+          const double q_z = 4 * (gz + z * (Hzz - by_z * Hzr) + normal_z) - T_z;
+          q_[k] = q;
+          q_c_[k] = q_c;
+          add(4, ws * q);
+          add(5, w * q_c);
+          add(6, ws * q_c);
+          add(7, ws * q_z);
         }
-      });
+      }
+    };
+    for (std::size_t slot = 0; slot < slots(); ++slot) {
+      const double at_rest = rest_ == nullptr ? 0 : rest_->value[layers_->size() == 1 ? 0 : slot_layer_[slot]];
+      if (count == 1) {  // lanes over points
+        double* const to = terms_.data();
+        TUNICA_LANES
+        for (std::size_t m = slot * nodes; m < (slot + 1) * nodes; ++m)
+          terms(m, weight.all[m], R2.all[m], inverse.all[m], at_rest,
+                [to, n, m](std::size_t number, double term) TUNICA_INLINE { to[number * n + m] = term; });
+        continue;
+      }
+      for (std::size_t m = slot * nodes; m < (slot + 1) * nodes; ++m) {
+        const auto w = weight(m), s = R2(m), per_s = inverse(m);
+        TUNICA_LANES
+        for (std::size_t i = 0; i < count; ++i)
+          terms(m * count + i, w[i], s[i], per_s[i], at_rest,
+                [sum, count, i](std::size_t number, double term) TUNICA_INLINE { sum[number * count + i] += term; });
+      }
+    }
+    for (std::size_t k = 0; count == 1 && k < sums; ++k)
+      for (std::size_t m = 0; m < n; ++m) sum[k] += terms_[k * n + m];
+  });
 }
 
 WallForces Sections::forces(std::size_t i) const {

@@ -160,6 +160,7 @@ class Sections {
   std::vector<Layers::Run> runs_;
   std::vector<double> c_, gradient_, hessian_, gradient_dp_;  ///< 3 squared stretches of each point; the responses
   std::vector<double> h_, h_c_, q_, q_c_;                     ///< T/c and 2Z − T, with their derivatives by c
+  std::vector<double> terms_;                                 ///< of the integrals, of each point of one section
   std::vector<double> adjoint_;  ///< of each point: ∂p/∂g_t, ∂p/∂g_r and, without factors, ∂F/∂g_t, ∂F/∂g_z, ∂F/∂g_r
 };
 
