@@ -14,7 +14,8 @@ def available():
 
 
 class Browser:
-    def __init__(self, downloads):
+    def __init__(self, downloads, watched=True):
+        """Logs of the console and the network cost time for every request; not `watched` there are none."""
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
@@ -28,8 +29,9 @@ class Browser:
                 time.sleep(0.05)
         options = {"args": ["--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"],
                    "prefs": {"download.default_directory": str(downloads), "download.prompt_for_download": False}}
-        wanted = {"browserName": "chrome", "goog:chromeOptions": options,
-                  "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"}}
+        wanted = {"browserName": "chrome", "goog:chromeOptions": options}
+        if watched:
+            wanted["goog:loggingPrefs"] = {"browser": "ALL", "performance": "ALL"}
         self.session = "/session/" + self.call("POST", "/session", {"capabilities": {"alwaysMatch": wanted}})["sessionId"]
         self.devtools("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(downloads))
 

@@ -12,7 +12,8 @@ import signal
 import subprocess
 import time
 
-from studio_server import Studio, mistaken_experiment, rig_file, slow_experiment
+from studio_live import ACCEPT, BINARY, CLOSING, PING, PONG, TEXT, Live
+from studio_server import Studio, decoded, mistaken_experiment, rig_file, slow_experiment
 
 
 def only_with_the_token(studio):
@@ -41,6 +42,39 @@ def only_from_its_own_page(studio):
     del headers["Origin"]
     assert studio.request("POST", "/api/project", b"{}", headers)[0] == 403
     assert studio.post("/api/project", {}, Host=f"localhost:{studio.port}", Origin=f"http://localhost:{studio.port}")[0] == 200
+
+
+def predictions_on_one_connection(studio):
+    """What it answers is what a request is answered; who sends anything but whole, masked, short texts is left."""
+    for origin in ("http://evil.example", f"http://127.0.0.1:{studio.port + 1}", "null", None):
+        with Live(studio, Origin=origin) as live:
+            assert live.status == 403, origin
+    with Live(studio, Cookie=None) as live:
+        assert live.status == 403
+    file = studio.ask("example", name="treloar")["file"]
+    run = studio.ask("problem", file=file)["runs"][0]
+    question = {"file": file, "run": run["label"], "values": [one["initial"] for one in run["parameters"]]}
+    expected = studio.simulate(**question)
+    with Live(studio) as live:
+        assert live.status == 101 and f"Sec-WebSocket-Accept: {ACCEPT}\r\n".encode() in live.head, live.head
+        for _ in range(3):
+            live.send(TEXT, json.dumps(question).encode())
+            kind, said = live.receive()
+            assert kind == BINARY and decoded(said)["channels"] == expected["channels"], kind
+        live.send(TEXT, json.dumps({**question, "run": "none"}).encode())
+        kind, said = live.receive()
+        assert kind == TEXT and "has no run 'none'" in json.loads(said)["error"], said
+        live.send(TEXT, b"{")
+        assert live.receive()[0] == TEXT
+        live.send(PING, b"there?")
+        assert live.receive() == (PONG, b"there?")
+        live.send(CLOSING, b"")
+        assert live.receive() == (CLOSING, b"") and live.receive() == (None, b"")
+    text = json.dumps(question).encode()
+    for wrong in ({"payload": text, "masked": False}, {"payload": text, "whole": False}, {"payload": b" " * 40000}, {"payload": b" " * 70000}):
+        with Live(studio) as live:
+            live.send(TEXT, **wrong)
+            assert live.receive() == (CLOSING, b""), {**wrong, "payload": len(wrong["payload"])}
 
 
 def nothing_outside_the_project(studio, outside):
@@ -154,7 +188,7 @@ def every_example_opens_and_follows_its_sliders(studio):
         file = studio.ask("example", name=example["name"])["file"]
         run = studio.ask("problem", file=file)["runs"][0]
         values = [(0.9 * one["initial"] + 0.1 * one["max"]) for one in run["parameters"]]
-        before, after = (studio.ask("simulate", file=file, run=run["label"], values=point)
+        before, after = (studio.simulate(file=file, run=run["label"], values=point)
                          for point in ([one["initial"] for one in run["parameters"]], values))
         assert [len(channel) for channel in before["channels"]] == [len(channel["x"]) for channel in run["channels"]], file
         assert before["objective"] > 0 and after["channels"] != before["channels"], file
@@ -275,6 +309,7 @@ def main():
     with Studio(options.tunica, project) as studio:
         only_with_the_token(studio)
         only_from_its_own_page(studio)
+        predictions_on_one_connection(studio)
         nothing_outside_the_project(studio, outside)
         files_are_shown_apart(studio)
         (outside / "secret.csv").unlink()

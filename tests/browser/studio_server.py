@@ -3,6 +3,7 @@
 import http.client
 import json
 import pathlib
+import struct
 import subprocess
 import time
 
@@ -61,6 +62,13 @@ class Studio:
         assert status == 200, f"{path} {question}: {status} {said}"
         return said
 
+    def simulate(self, **question):
+        """What `simulate` answers, with a list of numbers for each channel as "channels"."""
+        body = json.dumps(question).encode()
+        status, _, said = self.request("POST", "/api/simulate", body, self.own(body))
+        assert status == 200, f"simulate {question}: {status} {said}"
+        return decoded(said)
+
     def upload(self, name, data):
         return self.post(f"/api/upload?name={name}", data)
 
@@ -77,6 +85,18 @@ class Studio:
                 return job
             time.sleep(0.05)
         raise AssertionError(f"job {identity} runs after {seconds} s")
+
+
+def decoded(said):
+    """Bytes of Workbench::simulate(): a length, JSON, and a float for each row."""
+    length, = struct.unpack_from("=I", said)
+    answer, at = json.loads(said[4:4 + length]), 4 + length
+    answer["channels"] = []
+    for rows in answer.get("rows", []):
+        answer["channels"].append(list(struct.unpack_from(f"={rows}f", said, at)))
+        at += 4 * rows
+    assert at == len(said), (at, len(said))
+    return answer
 
 
 def rig_file():

@@ -14,13 +14,16 @@ from browser import Browser, available
 from studio_page import Page
 from studio_server import Studio, mistaken_experiment, rig_file, slow_experiment
 
+# Something is drawn on the canvas of points (0) or of lines (1) of the first chart.
+INK = """const c = document.querySelectorAll('.chart canvas')[arguments[0]];
+  return Boolean(c && c.width && new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer).some(Boolean))"""
 MARKUP = "<img src=x onerror=window.hacked=1>"
 
 
 def import_rig_file(page, file):
     page.choose_file(file)
     page.see("What was understood")
-    page.until("return document.querySelectorAll('svg.chart .point[d]').length > 0", seconds=10)
+    page.until(INK, 0, seconds=10)
     page.see("with example sizes")
     for option, size in (("--width", "6 mm"), ("--thickness", "1.5 mm"), ("--gauge-length", "20 mm")):
         page.set(f"[data-option='{option}']", size)
@@ -35,15 +38,16 @@ def import_rig_file(page, file):
 def move_sliders(page):
     """The curve is another one after each move; returns the times from a move to its frame, ms."""
     page.set("select", "neo_hooke")
-    page.until("return document.querySelector('[data-parameter=mu]') && document.querySelector('svg .line[d]')")
-    line = "return document.querySelector('svg .line').getAttribute('d')"
+    page.until("return document.querySelector('[data-parameter=mu]')")
+    page.until(INK, 1)
+    line = "return document.querySelectorAll('.chart canvas')[1].toDataURL()"
     before = page.browser.run(line)
     page.browser.run("""window.tunicaFrames = []; const n = document.querySelector('[data-parameter=mu]');
       let at = 303; const move = () => { n.value = at; n.dispatchEvent(new Event('input')); if ((at += 8) < 640) setTimeout(move, 16); else n.dataset.moved = ""; }; move();""")
     page.until("return tunicaFrames.length >= 10 && document.querySelector('[data-moved]')")
     page.until("return !document.body.innerText.includes('misses by –')")
     assert page.browser.run(line) != before, "the curve does not follow the slider"
-    frames = page.browser.run("return tunicaFrames")
+    frames = page.browser.run("return tunicaFrames.map((one) => one.frame)")
     page.set("[data-parameter=mu]", "565")
     page.until("return document.querySelector('.tag')?.textContent === 'stable'")
     page.picture("material", 780)
@@ -56,7 +60,7 @@ def fit(page):
     page.set("input[type=number]", "3000")
     page.click("Fit")
     page.see("What came out")
-    page.until("return document.querySelectorAll('.live svg .line').length === 2")
+    page.until("return document.querySelectorAll('.live .legend span').length === 2")
     page.see("neo_hooke/es")
     page.picture("fit", 1650)
 

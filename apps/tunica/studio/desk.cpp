@@ -112,6 +112,13 @@ json Desk::catalogue() const {
   return all;
 }
 
+WebReply Desk::simulated(const std::string& body) {
+  const auto question = detail::parse_json(body);
+  return {200, "application/octet-stream",
+          workbench_.simulate(question.at("file"), question.at("run"), question.at("values")),
+          guarded_headers("default-src 'none'")};
+}
+
 json Desk::asked(const WebRequest& request) {
   const std::string& path = request.path;
   if (path == "/api/upload") return save_upload(request.name, request.body);
@@ -128,7 +135,6 @@ json Desk::asked(const WebRequest& request) {
                            detail::parse_json<json>(request.body).at("document"), question.value("as_new", false));
   if (path == "/api/problem") return workbench_.problem(text("file"));
   if (path == "/api/check") return workbench_.check(text("file"));
-  if (path == "/api/simulate") return workbench_.simulate(text("file"), text("run"), question.at("values"));
   if (path == "/api/judge") return workbench_.judge(text("file"), text("run"), question.at("values"));
   if (path == "/api/start") return jobs_.start(question);
   if (path == "/api/stop") {
@@ -149,7 +155,19 @@ WebReply Desk::operator()(const WebRequest& request) {
       reply.events = jobs_.events(request.name);
       return reply;
     }
+    if (request.method == "GET" && request.path == "/api/live" && !request.key.empty()) {
+      WebReply reply{400, "text/plain; charset=utf-8", {}, {}};
+      reply.live = [this](std::string question) {
+        WebRequest one;
+        one.method = "POST";
+        one.path = "/api/simulate";
+        one.body = std::move(question);
+        return (*this)(one);
+      };
+      return reply;
+    }
     if (request.method != "POST") return problem(404, "there is no such page; open the address that was printed");
+    if (request.path == "/api/simulate") return simulated(request.body);
     return json_reply(200, asked(request));
   } catch (const Refused& why) {
     return refusal(request, 403, why.what());

@@ -31,6 +31,7 @@ class Desk {
   WebReply shown(const std::string& name) const;
   nlohmann::ordered_json project();
   nlohmann::ordered_json catalogue() const;
+  WebReply simulated(const std::string& question);
   nlohmann::ordered_json asked(const WebRequest& request);
 
   const Session& session_;

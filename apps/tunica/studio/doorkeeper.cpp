@@ -89,7 +89,8 @@ std::string Doorkeeper::problem_with(const WebRequest& request) const {
                : "the address of the file has no token, or another one";
   if (!request.origin.empty() && (!request.origin.starts_with("http://") || !is_here(request.origin.substr(7))))
     return "the header Origin names another page than the studio's";
-  if (request.method == "POST" && request.origin.empty()) return "the header Origin is missing";
+  if ((request.method == "POST" || !request.key.empty()) && request.origin.empty())
+    return "the header Origin is missing";
   const std::string own = tokens_.substr(0, length);
   if (!is_same(cookie_of(request.cookie, cookie_name()), own)) return "the token is missing, or it is another one";
   return {};

@@ -104,7 +104,7 @@ Form form_of(const nlohmann::json& asked) {
 }
 
 json numbers(const std::vector<double>& values) {
-  constexpr std::size_t most = 1500;
+  constexpr std::size_t most = 60000;
   json list = json::array();
   const std::size_t shown = std::min(values.size(), most);
   for (std::size_t k = 0; k < shown; ++k) {

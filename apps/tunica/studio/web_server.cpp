@@ -10,6 +10,7 @@
 #include "http_loop.hpp"
 #include "listening_socket.hpp"
 #include "open_requests.hpp"
+#include "studio/web_socket.hpp"
 
 namespace tunica::app::studio {
 
@@ -28,6 +29,7 @@ WebRequest request_of(const httplib::Request& request) {
           request.get_header_value("Cookie"),
           request.get_header_value("Content-Length"),
           request.get_header_value("Content-Encoding"),
+          request.get_header_value("Sec-WebSocket-Key"),
           request.body};
 }
 
@@ -73,6 +75,7 @@ class Server final : public ConnectionServer {
         answer = service_.answer(request_of(request));
       }
       if (answer.events) stream(answer, connection(), service_.over);
+      if (answer.live) talk(connection(), request.get_header_value("Sec-WebSocket-Key"), answer.live, service_.over);
       hand_over(std::move(answer), response);
     };
     Get(".*", reply);

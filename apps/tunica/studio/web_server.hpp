@@ -16,6 +16,7 @@ struct WebRequest {
   std::string token, name;  ///< of the query
   std::string host, origin, cookie;
   std::string length = {}, encoding = {};  ///< headers of the body
+  std::string key = {};                    ///< of who asks for a WebSocket
   std::string body = {};
 };
 
@@ -26,6 +27,8 @@ struct WebReply {
   /// Server-sent events: called again and again for the next words, which are sent at once; nothing ends the answer.
   /// Empty words are skipped.
   std::function<std::optional<std::string>()> events = {};
+  /// The connection becomes a WebSocket, see talk(): called for each text that comes.
+  std::function<WebReply(std::string)> live = {};
 };
 
 struct WebService {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <optional>
 
@@ -48,7 +50,8 @@ struct Workbench::Open {
 
 namespace {
 
-constexpr std::size_t most_rows = 1500, most_while_moving = 5000;
+constexpr std::size_t most_rows = 200000;
+constexpr double longest_while_moving = 4;  // ms
 
 /// Row numbers of a channel that are shown: all, or evenly chosen ones with the last.
 std::vector<std::size_t> shown_rows(std::size_t count) {
@@ -67,9 +70,13 @@ json chosen(const Values& values, const std::vector<std::size_t>& rows) {
 
 json channel_json(const assembly::MeasuredChannel& channel) {
   const auto rows = shown_rows(channel.count);
-  json held_out = json::array(), curves = json::array();
-  for (const std::size_t row : rows) held_out.push_back(channel.held_out(row));
-  if (!channel.drawn_over.curves.empty()) curves = chosen(channel.drawn_over.curves, rows);
+  const auto& curves = channel.drawn_over.curves;
+  std::size_t held_out = 0;
+  json breaks = json::array();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    held_out += channel.held_out(rows[k]) ? 1 : 0;
+    if (k > 0 && !curves.empty() && curves[rows[k]] != curves[rows[k - 1]]) breaks.push_back(k);
+  }
   return {{"test", channel.test},
           {"observable", channel.observable},
           {"unit", channel.unit},
@@ -78,8 +85,8 @@ json channel_json(const assembly::MeasuredChannel& channel) {
           {"rows", channel.count},
           {"x", chosen(channel.drawn_over.values, rows)},
           {"y", chosen(channel.measured, rows)},
-          {"held_out", std::move(held_out)},
-          {"curves", std::move(curves)}};
+          {"held_out", held_out},
+          {"breaks", std::move(breaks)}};
 }
 
 json run_json(const execution::PlannedRun& run, const std::vector<experiment::RunEntry>& entries) {
@@ -121,6 +128,19 @@ void refuse_programs(const experiment::Experiment& experiment) {
     if (test.options.has("command") || test.options.has("url"))
       throw InputError(fmt::format(
           "test '{}' starts a program or asks a server, which a slider does not; fit it instead", test.name));
+}
+
+/// See Workbench::simulate().
+std::string bytes_of(const json& head, const std::vector<float>& values) {
+  std::string words = head.dump(-1, ' ', false, json::error_handler_t::replace);
+  words.append((4 - words.size() % 4) % 4, ' ');
+  const auto length = static_cast<std::uint32_t>(words.size());
+  std::string bytes(sizeof length + words.size() + values.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), &length, sizeof length);
+  std::memcpy(bytes.data() + sizeof length, words.data(), words.size());
+  if (!values.empty())
+    std::memcpy(bytes.data() + sizeof length + words.size(), values.data(), values.size() * sizeof(float));
+  return bytes;
 }
 
 /// Of the text of a file, to notice that somebody else has written it meanwhile.
@@ -212,21 +232,27 @@ json Workbench::problem(const std::string& name) {
   return problem;
 }
 
-json Workbench::simulate(const std::string& name, const std::string& label, const std::vector<double>& values) {
+std::string Workbench::simulate(const std::string& name, const std::string& label, const std::vector<double>& values) {
   const auto open = opened(name);
   const auto& run = run_of(open->plan, label);
   const auto& layout = run.assembly->layout();
   refuse_other_count(values, *run.assembly);
   const auto begin = std::chrono::steady_clock::now();
+  const auto took = [&] {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  };
   try {
     const serving::ServedRun served(*run.assembly);
     const auto predictions = served.values(serving::ServedRun::Function::predictions, values);
-    json answer = {{"channels", json::array()}, {"objective", nullptr}, {"quality", json::array()}};
-    if (layout.prediction_count <= most_while_moving)  // else it would cost the frame
+    json answer = {{"rows", json::array()}, {"objective", nullptr}, {"quality", json::array()}};
+    if (took() < longest_while_moving)  // it is simulated again
       answer["objective"] = served.values(serving::ServedRun::Function::objective, values).front().front();
     std::vector<double> all;
+    std::vector<float> shown;
     for (const auto& channel : predictions) {
-      answer["channels"].push_back(chosen(channel, shown_rows(channel.size())));
+      const auto rows = shown_rows(channel.size());
+      answer["rows"].push_back(rows.size());
+      for (const std::size_t row : rows) shown.push_back(static_cast<float>(channel[row]));
       all.insert(all.end(), channel.begin(), channel.end());
     }
     const auto ranges = assembly::observable_ranges(layout, open->experiment);
@@ -240,11 +266,10 @@ json Workbench::simulate(const std::string& name, const std::string& label, cons
                {"share", agreement->rmse / ranges[k]}};
       answer["quality"].push_back(std::move(one));
     }
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-    answer["milliseconds"] = took.count();
-    return answer;
+    answer["milliseconds"] = took();
+    return bytes_of(answer, shown);
   } catch (const serving::ModelFailure& failure) {
-    return {{"failed", failure.what()}};
+    return bytes_of({{"failed", failure.what()}}, {});
   }
 }
 

@@ -37,14 +37,16 @@ class Workbench {
                               bool as_new);
 
   /// {"name", "runs": [{"entry": number within "runs" of the file, "label", "model", "optimizer", "parameters": [{name,
-  /// unit, min, max, initial, scale}], "fixed", "channels": [{test, observable, unit, over, over_unit, x, y, held_out,
-  /// curves, rows}]}]}. Channels have at most 1500 rows, evenly chosen. Throws InputError.
+  /// unit, min, max, initial, scale}], "fixed", "channels": [{test, observable, unit, over, over_unit, x, y, breaks:
+  /// [row at which another curve of a family begins], held_out: number of rows, rows}]}]}. Channels have at most 200
+  /// 000 rows, evenly chosen. Throws InputError.
   nlohmann::ordered_json problem(const std::string& file);
-  /// What a run predicts at values of its free parameters, in base units, at the rows that problem() gives:
-  /// {"channels":
-  /// [[y]], "objective", "quality": [{rmse, r2, share}], "milliseconds"}, or {"failed": reason}. The objective of many
-  /// rows is null, see judge(). `share` is RMSE over the range of the observable. Throws InputError.
-  nlohmann::ordered_json simulate(const std::string& file, const std::string& label, const std::vector<double>& values);
+  /// What a run predicts at values of its free parameters, in base units, at the rows that problem() gives. Bytes: the
+  /// length of what follows (uint32, as the machine has it, like all numbers here), {"rows": [number of each channel],
+  /// "objective", "quality": [{rmse, r2, share}], "milliseconds"} or {"failed": reason} as JSON, spaces up to a
+  /// multiple of four bytes, then a float for each row of each channel. Where a prediction takes long, the objective is
+  /// null, see judge(). `share` is RMSE over the range of the observable. Throws InputError.
+  std::string simulate(const std::string& file, const std::string& label, const std::vector<double>& values);
   /// What is asked where the values rest: whether a material is stable there, as `tunica stability` judges, and the
   /// objective: {"stable": true, false or null, "sentences", "objective"}. Throws InputError.
   nlohmann::ordered_json judge(const std::string& file, const std::string& label, const std::vector<double>& values);

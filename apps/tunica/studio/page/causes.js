@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The diagnosis: budget, causes on the data, and accepting one.
-import { bars } from "./chart.js";
+import { bars } from "./bars.js";
 import { add, attempt, check, el, panel, put, shell } from "./dom.js";
 import { mend } from "./edits.js";
 import { newest, reportLink, watchJob } from "./jobs.js";

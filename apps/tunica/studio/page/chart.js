@@ -1,106 +1,142 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines and points in SVG, by hand: a curve that follows a slider is one attribute a frame.
-import { draw, el } from "./dom.js";
+// Lines and points on two canvases: axes and measured points lie below, curves that follow a slider above. A chart is drawn
+// once it is in sight. It is moved by dragging, and zoomed by its buttons, by keys, and by the wheel once it is in focus.
+import { el, newId } from "./dom.js";
+import { drawAxes, drawLine, drawPoints, extent, scales } from "./plot.js";
 import { number } from "./words.js";
 
-/** On a narrow screen the picture is smaller, so that its words are not. */
-const wide = () => (innerWidth < 600 ? 400 : 640);
-let clips = 0;
-const size = { height: 380, left: 66, right: 14, top: 12, bottom: 46 };
+const charts = new WeakMap();
+const inSight = new IntersectionObserver((entries) => entries.forEach(({ target, isIntersecting }) => charts.get(target)?.seen(isIntersecting)), { rootMargin: "200px" });
+const sized = new ResizeObserver((entries) => entries.forEach(({ target }) => charts.get(target)?.draw()));
+const all = () => [...document.querySelectorAll(".chart")].map((one) => charts.get(one)).filter(Boolean);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => all().forEach((one) => one.draw()));
+let onPaper = false;
+const toPaper = (is) => { onPaper = is; document.documentElement.classList.toggle("paper", is); all().forEach((one) => one.draw(true)); };
+addEventListener("beforeprint", () => toPaper(true));
+addEventListener("afterprint", () => toPaper(false));
 
-function extent(lists, log) {
-  let low = Infinity, high = -Infinity;
-  for (const values of lists) for (const v of values)
-    if (v !== null && Number.isFinite(v) && (!log || v > 0)) { if (v < low) low = v; if (v > high) high = v; }
-  if (low > high) return log ? [1, 10] : [0, 1];
-  if (low === high) return log ? [low / 2, high * 2] : [low - (Math.abs(low) || 1) / 2, high + (Math.abs(high) || 1) / 2];
-  const margin = log ? 0 : 0.04 * (high - low);
-  return [low - margin, high + margin];
+let dragged = null;
+addEventListener("pointermove", (event) => {
+  if (!dragged) return;
+  dragged.move(event.clientX - dragged.from[0], event.clientY - dragged.from[1]);
+  dragged.from = [event.clientX, event.clientY];
+});
+addEventListener("pointerup", () => (dragged = null));
+
+function coloursOf(node) {
+  const style = getComputedStyle(node), of = (name) => style.getPropertyValue(`--${name}`).trim();
+  return { line: of("line"), muted: of("muted"), data: of("data"), series: [0, 1, 2, 3, 4].map((k) => of(`c${k}`)) };
 }
 
-function ticks([low, high], log) {
-  if (log) {
-    const from = Math.ceil(Math.log10(low) - 1e-9), to = Math.floor(Math.log10(high) + 1e-9), step = Math.max(1, Math.ceil((to - from) / 6));
-    const list = [];
-    for (let k = from; k <= to; k += step) list.push(10 ** k);
-    return list.length > 1 ? list : [low, high];
-  }
-  const raw = (high - low) / 5, power = 10 ** Math.floor(Math.log10(raw)), step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw);
-  const list = [];
-  for (let v = Math.ceil(low / step) * step; v <= high; v += step) list.push(Math.abs(v) < step * 1e-9 ? 0 : v);
-  return list;
+/** "0.1 … 3" of the values of a list. */
+function range(values) {
+  let low = Infinity, high = -Infinity;
+  for (const v of values) if (v !== null && Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
+  return low > high ? "" : `${number(low)} to ${number(high)}`;
 }
 
 /**
- * series: [{name, x, y, points, colour (0 … 4), breaks: [row at which a new line begins]}]. Returns {node, set(k, y),
- * rescale()}: set() moves a series within the axes as they are.
+ * series: [{name, x, y, points, colour (0 … 4), breaks: [row at which a new line begins], free: does not stretch the axes}].
+ * Returns {node, series, set(k, y, xs), rescale()}: set() moves a series within the axes as they are.
  */
-export function chart({ title, note = "", x, y, series, logY = false, height = size.height }) {
-  const box = { ...size, width: wide(), height: Math.min(height, wide()) }, clip = `clip${++clips}`;
-  const plot = draw("g", { "clip-path": `url(#${clip})` }), axes = draw("g");
-  const picture = draw("svg", { class: "chart", viewBox: `0 0 ${box.width} ${box.height}`, role: "img", "aria-label": `${title}: ${y} over ${x}` }, draw("clipPath", { id: clip }, draw("rect", {
-    x: box.left - 4, y: box.top - 4, width: box.width - box.left - box.right + 8, height: box.height - box.top - box.bottom + 8 })), axes, plot);
-  let scaleX, scaleY;
-  const marks = series.map((one) => draw("path", { class: `${one.points ? "point" : "line"} s${one.colour ?? 0}` }));
-  plot.append(...marks);
+export function chart({ title, note = "", x, y, series, logY = false, height = 380, small = false }) {
+  const below = el("canvas"), above = el("canvas"), back = below.getContext("2d"), front = above.getContext("2d");
+  const measured = series.find((one) => one.points) ?? series[0];
+  const place = el("div", { class: `chart${small ? " small" : ""}`, role: "img", id: newId(), tabindex: small ? null : "0",
+    "aria-label": `${title}: ${y} over ${x}${measured ? `; ${measured.name}, ${measured.y.length} rows, ${range(measured.x)} and ${range(measured.y)}` : ""}` }, below, above);
+  place.style.setProperty("--height", `${height}px`);
+  let whole, view = null, scale = null, seen = false, stale = true, queued = false;
 
-  function path(one) {
-    const parts = [], breaks = new Set(one.breaks ?? []);
-    let pen = false;
-    for (let k = 0; k < one.x.length; ++k) {
-      const value = one.y[k];
-      if (value === null || one.x[k] === null || !Number.isFinite(value) || (logY && value <= 0)) { pen = false; continue; }
-      const px = scaleX(one.x[k]), py = Math.min(Math.max(scaleY(value), -2000), 4000);
-      if (one.points) parts.push(`M${(px - 3).toFixed(1)} ${py.toFixed(1)}a3 3 0 1 0 6 0a3 3 0 1 0 -6 0`);
-      else parts.push(`${pen && !breaks.has(k) ? "L" : "M"}${px.toFixed(1)} ${py.toFixed(1)}`);
-      pen = true;
+  const measure = () => { whole = [extent(series.map((s) => s.x), false), extent(series.filter((s) => !s.free).map((s) => s.y), logY)]; };
+  function fit(canvas, pen, width, tall) {
+    const ratio = (onPaper ? 3 : devicePixelRatio) || 1;
+    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(tall * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(tall * ratio);
     }
-    return parts.join("");
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, width, tall);
   }
-
-  function rescale() {
-    const [x0, x1] = extent(series.map((s) => s.x), false), [y0, y1] = extent(series.filter((s) => !s.free).map((s) => s.y), logY);
-    const f = logY ? Math.log : (v) => v;
-    scaleX = (v) => box.left + ((v - x0) / (x1 - x0)) * (box.width - box.left - box.right);
-    scaleY = (v) => box.height - box.bottom - ((f(v) - f(y0)) / (f(y1) - f(y0))) * (box.height - box.top - box.bottom);
-    const right = box.width - box.right, bottom = box.height - box.bottom;
-    axes.replaceChildren(
-      ...ticks([x0, x1], false).map((v) => [draw("line", { class: "grid", x1: scaleX(v), x2: scaleX(v), y1: box.top, y2: bottom }),
-        draw("text", { x: scaleX(v), y: bottom + 17, "text-anchor": "middle" }, number(v))]).flat(),
-      ...ticks([y0, y1], logY).map((v) => [draw("line", { class: "grid", x1: box.left, x2: right, y1: scaleY(v), y2: scaleY(v) }),
-        draw("text", { x: box.left - 7, y: scaleY(v) + 4, "text-anchor": "end" }, number(v, 3))]).flat(),
-      draw("path", { class: "axis", d: `M${box.left} ${box.top}V${bottom}H${right}` }),
-      draw("text", { x: (box.left + right) / 2, y: box.height - 8, "text-anchor": "middle" }, x),
-      draw("text", { x: 14, y: (box.top + bottom) / 2, "text-anchor": "middle", transform: `rotate(-90 14 ${(box.top + bottom) / 2})` }, y));
-    series.forEach((one, k) => marks[k].setAttribute("d", path(one)));
+  function lines(colours) {
+    fit(above, front, place.clientWidth, place.clientHeight);
+    series.forEach((one) => { if (!one.points) drawLine(front, scale, one, colours.series[one.colour ?? 0], small ? 1.5 : 2.2); });
   }
-  rescale();
+  function draw(now = false) {
+    if (!seen && !now) { stale = true; return; }
+    const width = place.clientWidth, tall = place.clientHeight;
+    if (!width) return;
+    stale = false;
+    const colours = coloursOf(place), [xs, ys] = view ?? whole;
+    scale = scales(xs, ys, logY, width, tall, small);
+    fit(below, back, width, tall);
+    drawAxes(back, scale, { x, y }, colours);
+    series.forEach((one) => { if (one.points) drawPoints(back, scale, one, colours.data, small); });
+    lines(colours);
+  }
+  const soon = () => {
+    if (queued) return;
+    queued = true;
+    requestAnimationFrame(() => { queued = false; draw(); });
+  };
+  measure();
+  charts.set(place, { draw, seen(is) { seen = is; if (is && stale) draw(); } });
+  inSight.observe(place);
+  sized.observe(place);
 
-  const lines = series.filter((one) => !one.points);
-  const node = el("figure", {}, el("figcaption", {}, title, note ? el("small", {}, note) : null), picture,
-    lines.length > 1 || series.some((s) => s.points) ? el("div", { class: "legend" }, series.map((one) =>
-      el("span", { class: `s${one.colour ?? 0}` }, one.points ? "● " : el("i"), one.name))) : null);
+  /** Keeps the values under a pixel, or in the middle, where they are. */
+  function zoom(factor, px, py) {
+    if (!scale) return;
+    const [xs, ys] = view ?? whole, f = logY ? Math.log : (v) => v, back = logY ? Math.exp : (v) => v;
+    const shareX = px === undefined ? 0.5 : (px - scale.left) / (scale.right - scale.left), shareY = py === undefined ? 0.5 : (scale.bottom - py) / (scale.bottom - scale.top);
+    const about = ([low, high], share) => { const at = low + share * (high - low); return [at + (low - at) * factor, at + (high - at) * factor]; };
+    const next = [about(xs, shareX), about(ys.map(f), shareY).map(back)];
+    const wide = (next[0][1] - next[0][0]) / (whole[0][1] - whole[0][0]);
+    if (wide < 1e-6) return;
+    view = wide >= 1 ? null : next;
+    place.classList.toggle("zoomed", view !== null);
+    soon();
+  }
+  function move(dx, dy) {
+    if (!view || !scale) return;
+    const [xs, ys] = view, f = logY ? Math.log : (v) => v, back = logY ? Math.exp : (v) => v, [y0, y1] = ys.map(f);
+    const byX = (-dx * (xs[1] - xs[0])) / (scale.right - scale.left), byY = (dy * (y1 - y0)) / (scale.bottom - scale.top);
+    view = [xs.map((v) => v + byX), [y0 + byY, y1 + byY].map(back)];
+    soon();
+  }
+  const reset = () => { view = null; place.classList.remove("zoomed"); soon(); };
+  function interact() {
+    place.addEventListener("wheel", (event) => {
+      if (!event.ctrlKey && document.activeElement !== place) return;
+      event.preventDefault();
+      const box = place.getBoundingClientRect();
+      zoom(Math.exp(Math.max(-1, Math.min(1, event.deltaY / 200))), event.clientX - box.left, event.clientY - box.top);
+    }, { passive: false });
+    place.addEventListener("pointerdown", (event) => { dragged = { move, from: [event.clientX, event.clientY] }; });
+    place.addEventListener("dblclick", reset);
+    place.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] }[event.key];
+      if (event.key === "+" || event.key === "=") zoom(0.7);
+      else if (event.key === "-") zoom(1 / 0.7);
+      else if (event.key === "0") reset();
+      else if (step && view) move(...step);
+      else return;
+      event.preventDefault();
+    });
+  }
+  const button = (sign, words, act) => el("button", { type: "button", "aria-label": `${words}: ${title}`, title: words, onclick: act }, sign);
+  if (!small) interact();
+  const many = series.filter((one) => !one.points).length > 1 || series.some((s) => s.points);
+  const node = el("figure", {}, el("figcaption", {}, title, note ? el("small", {}, note) : null), place,
+    small ? null : el("div", { class: "under" },
+      many ? el("div", { class: "legend" }, series.map((one) => el("span", { class: `s${one.colour ?? 0}` }, one.points ? "● " : el("i"), one.name))) : el("span"),
+      el("div", { class: "zoom" }, button("+", "Zoom in", () => zoom(0.6)), button("−", "Zoom out", () => zoom(1 / 0.6)), button("⤢", "Whole curve", reset))));
   return {
-    node, series, rescale,
+    node, series,
+    rescale() { measure(); soon(); },
     set(k, values, xs) {
       series[k].y = values;
       if (xs) series[k].x = xs;
-      marks[k].setAttribute("d", path(series[k]));
+      if (seen && scale && !stale) lines(coloursOf(place)); else stale = true;
     }
   };
-}
-
-/** Bars from zero, a share each: [{name, share, note, colour}]. */
-export function bars(title, list) {
-  const line = 34, width = wide(), name = width > 500 ? 230 : 120;
-  const picture = draw("svg", { class: "chart", viewBox: `0 0 ${width} ${line * list.length + 6}`, role: "img",
-    "aria-label": `${title}: ${list.map((one) => `${one.name} ${one.note}`).join("; ")}` });
-  const largest = Math.max(...list.map((one) => Math.max(one.share + (one.from ?? 0), 0)), 1e-12);
-  list.forEach((one, k) => {
-    const scale = (width - name - (width > 500 ? 190 : 150)) / largest, from = name + (one.from ?? 0) * scale, long = Math.max(one.share * scale, 2);
-    picture.append(draw("text", { x: name - 10, y: k * line + 22, "text-anchor": "end" }, one.name),
-      draw("rect", { class: `bar s${one.colour ?? 1}`, x: from, y: k * line + 6, width: long, height: line - 12, rx: 3 }),
-      draw("text", { x: from + long + 8, y: k * line + 22 }, one.note));
-  });
-  return el("figure", {}, el("figcaption", {}, title), picture);
 }

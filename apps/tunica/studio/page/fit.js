@@ -4,6 +4,7 @@ import { chart } from "./chart.js";
 import { attempt, check, el, panel, problem, put, unseen } from "./dom.js";
 import { setRuns } from "./edits.js";
 import { newest, reportLink, watchJob } from "./jobs.js";
+import { simulate } from "./live.js";
 import { ask, project, result, save, view } from "./server.js";
 import { axis, number, percent, plain, unit } from "./words.js";
 
@@ -20,11 +21,10 @@ function parameterTable(run, parameters) {
 async function fitted(name, run, best) {
   const { runs } = await ask("problem", { file: name }), one = runs.find((entry) => entry.label === run);
   if (!one) return "";
-  const answer = await ask("simulate", { file: name, run, values: one.parameters.map((p) => best[p.name]?.value ?? p.initial) });
+  const answer = await simulate({ file: name, run, values: one.parameters.map((p) => best[p.name]?.value ?? p.initial) });
   if (answer.failed) return problem(answer.failed);
   return one.channels.map((channel, k) => chart({ title: plain(channel.test), x: axis(channel.over, channel.over_unit), y: axis(channel.observable, channel.unit), height: 320,
-    series: [{ name: "measured", x: channel.x, y: channel.y, points: true }, { name: run, x: channel.x, y: answer.channels[k], colour: 0,
-      breaks: channel.curves.map((curve, i) => (i && curve !== channel.curves[i - 1] ? i : -1)) }] }).node);
+    series: [{ name: "measured", x: channel.x, y: channel.y, points: true }, { name: run, x: channel.x, y: answer.channels[k], colour: 0, breaks: channel.breaks }] }).node);
 }
 
 function card(folder, place) {

@@ -3,21 +3,19 @@
 import { chart } from "./chart.js";
 import { add, attempt, check, choice, el, field, notice, panel, problem, put, shell } from "./dom.js";
 import { setModel, setParameters, setTests } from "./edits.js";
+import { simulate } from "./live.js";
 import { ask, save } from "./server.js";
 import { latest, rested, sliders } from "./sliders.js";
 import { axis, number, percent, plain, quoted, unit } from "./words.js";
 
 const to = (kind, name) => `#/${kind}/${encodeURIComponent(name)}`;
 
-/** Rows at which another curve of a family begins. */
-const breaks = (curves) => curves.map((name, k) => (k > 0 && name !== curves[k - 1] ? k : -1)).filter((k) => k > 0);
-
 function pictures(run) {
   return run.channels.map((channel) => chart({
     title: plain(channel.test), note: channel.rows > channel.x.length ? `${channel.x.length} of ${channel.rows} rows are drawn` : "",
     x: axis(channel.over, channel.over_unit), y: axis(channel.observable, channel.unit), height: run.channels.length > 2 ? 300 : 380,
-    series: [{ name: channel.held_out.some(Boolean) ? "measured (partly held out)" : "measured", x: channel.x, y: channel.y, points: true },
-      { name: "model", x: channel.x, y: channel.x.map(() => null), colour: 0, breaks: breaks(channel.curves), free: true }] }));
+    series: [{ name: channel.held_out ? "measured (partly held out)" : "measured", x: channel.x, y: channel.y, points: true },
+      { name: "model", x: channel.x, y: [], colour: 0, breaks: channel.breaks, free: true }] }));
 }
 
 function modelPanel(name, run, file, catalogue, open) {
@@ -99,16 +97,15 @@ export async function materialPage(place, all, name) {
   function show(chosen) {
     run = chosen;
     const charts = pictures(run), quality = el("div", { class: "row", role: "status" }), failed = el("div"), stable = el("div", { class: "row", role: "status" }), objective = el("strong");
-    const shown = (answer, milliseconds) => {
+    const shown = (answer) => {
       put(failed, answer.failed ? problem(answer.failed) : "");
       if (answer.failed) return;
       answer.channels.forEach((values, k) => charts[k].set(1, values));
       objective.textContent = answer.objective === null ? "…" : number(answer.objective, 5);
       put(quality, el("span", {}, "objective ", objective), ...answer.quality.map((one, k) => one
         ? el("span", {}, plain(run.channels[k].test), " misses by ", el("strong", {}, percent(one.share)), ` of the range (RMSE ${number(one.rmse, 3)}${unit(run.channels[k].unit)})`) : ""));
-      (window.tunicaFrames ??= []).push(milliseconds);
     };
-    const simulate = latest((values) => ask("simulate", { file: name, run: run.label, values }), shown, (error) => failed.replaceChildren(problem(error.message)));
+    const follow = latest((values) => simulate({ file: name, run: run.label, values }), shown, (error) => failed.replaceChildren(problem(error.message)));
     const judge = rested(async (values) => {
       if (gone) return;
       try {
@@ -120,7 +117,7 @@ export async function materialPage(place, all, name) {
         put(stable, el("small", {}, error.message));
       }
     });
-    const moved = (values) => { if (!gone) simulate(values); judge(values); };
+    const moved = (values) => { if (!gone) follow(values); judge(values); };
     const knobs = sliders(run.parameters, moved), saving = el("div");
     moved(knobs.values);
     const keep = el("button", { onclick: () => attempt(saving, async () => {

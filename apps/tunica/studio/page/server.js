@@ -2,8 +2,8 @@
 // What the page asks of the server. Errors carry the words of the program.
 let viewed = "/";
 
-async function answer(response) {
-  if (response.ok) return response.json();
+async function whole(response) {
+  if (response.ok) return response;
   const text = await response.text();
   let words = text;
   try {
@@ -20,8 +20,10 @@ async function reach(path, options) {
   }
 }
 
-export const ask = async (what, question = {}) =>
-  answer(await reach(`/api/${what}`, { method: "POST", body: JSON.stringify(question) }));
+const answer = async (response) => (await whole(response)).json();
+
+export const post = async (what, question) => whole(await reach(`/api/${what}`, { method: "POST", body: JSON.stringify(question) }));
+export const ask = async (what, question = {}) => (await post(what, question)).json();
 
 /** Writes a change of what `document` has answered; refused where the file is another one meanwhile. */
 export const save = (file, read, document, as_new = false) => ask("save", { file, hash: read.hash, document, as_new });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters as sliders. The curve is asked for once a frame, and only when the last answer has come.
+// Parameters as sliders. The curve is asked for only when the last answer has come.
 import { el, newId } from "./dom.js";
 import { number, unit } from "./words.js";
 
@@ -57,9 +57,19 @@ export function rested(step, patience = 250) {
   return (values) => { clearTimeout(timer); timer = setTimeout(() => step([...values]), patience); };
 }
 
-/** Calls `ask(values)` for the newest values only, one at a time, and `shown(answer, milliseconds)` in a frame. */
+/**
+ * Calls `ask(values)` for the newest values only, one at a time, and `shown(answer)` in the next frame. Times are kept where
+ * somebody measures: ms from the move to the drawn frame, to the answer, of the drawing, and of the prediction.
+ */
 export function latest(ask, shown, failed) {
-  let wanted = null, busy = false;
+  let wanted = null, busy = false, come = null;
+  const draw = () => {
+    const { answer, begun, at } = come, from = performance.now();
+    come = null;
+    shown(answer);
+    const now = performance.now();
+    window.tunicaFrames?.push({ frame: now - begun, answer: at - begun, drawing: now - from, server: answer.milliseconds });
+  };
   const next = async () => {
     if (busy || wanted === null) return;
     busy = true;
@@ -67,7 +77,8 @@ export function latest(ask, shown, failed) {
     wanted = null;
     try {
       const answer = await ask(values);
-      await new Promise((done) => requestAnimationFrame(() => { shown(answer, performance.now() - begun); done(); }));
+      if (!come) requestAnimationFrame(draw);
+      come = { answer, begun, at: performance.now() };
     } catch (error) {
       failed(error);
     }
