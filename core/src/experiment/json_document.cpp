@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/limits.hpp"
+#include "experiment/placed_error.hpp"
 #include "experiment/suggest.hpp"
 #include "tunica/error.hpp"
 
@@ -48,8 +49,9 @@ class Scanner {
   [[noreturn]] void fail(std::size_t offset, std::string_view what, std::string_view help,
                          std::string_view pointer = {}) const {
     const auto [line, column] = place_of(text_, offset);
-    throw InputError(fmt::format("{}: {} ({}{}line {}, column {}).{}{}", file_.string(), what, excerpt(pointer, 300),
-                                 pointer.empty() ? "" : ", ", line, column, help.empty() ? "" : " ", help));
+    throw PlacedError(fmt::format("{}: {} ({}{}line {}, column {}).{}{}", file_.string(), what, excerpt(pointer, 300),
+                                  pointer.empty() ? "" : ", ", line, column, help.empty() ? "" : " ", help),
+                      line, column);
   }
 
   [[nodiscard]] char here() const { return at_ < text_.size() ? text_[at_] : '\0'; }
@@ -226,8 +228,9 @@ JsonDocument::JsonDocument(std::filesystem::path file, std::string text)
     // It begins with the place, which is named already.
     if (const auto colon = said.find(": "); parse_error != nullptr && colon != std::string::npos)
       said.erase(0, colon + 2);
-    throw InputError(fmt::format("{}: this is not JSON (line {}, column {}). The parser says: {}", file_.string(), line,
-                                 column, said));
+    throw PlacedError(fmt::format("{}: this is not JSON (line {}, column {}). The parser says: {}", file_.string(),
+                                  line, column, said),
+                      line, column);
   }
 }
 

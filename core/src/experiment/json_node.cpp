@@ -10,6 +10,7 @@
 
 #include "data/units.hpp"
 #include "experiment/limits.hpp"
+#include "experiment/placed_error.hpp"
 #include "experiment/suggest.hpp"
 #include "tunica/error.hpp"
 
@@ -44,9 +45,10 @@ std::string Node::place() const {
 
 void Node::fail(std::string_view what, std::string_view help) const {
   const auto [line, column] = document_->place(pointer_);
-  throw InputError(fmt::format("{}: {} ({}{}line {}, column {}).{}{}", document_->file().string(), what,
-                               shown_pointer(pointer_), pointer_.empty() ? "" : ", ", line, column,
-                               help.empty() ? "" : " ", help));
+  throw PlacedError(
+      fmt::format("{}: {} ({}{}line {}, column {}).{}{}", document_->file().string(), what, shown_pointer(pointer_),
+                  pointer_.empty() ? "" : ", ", line, column, help.empty() ? "" : " ", help),
+      line, column);
 }
 
 void Node::fail_expected(std::string_view expected) const {
