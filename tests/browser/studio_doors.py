@@ -203,6 +203,7 @@ def a_diagnosis_is_a_job_with_its_words(options, studio):
     found = json.loads(studio.shown(job["folder"] + "/result.json")[2])["diagnosis"]
     first = found["file"]["causes"][0]
     assert first["kind"] == "stress_measure" and first["tests"] == ["uniaxial"] and found["base"]["squares"] > 40 * first["squares"], first
+    assert first["changes"] == [{"op": "add", "path": "/tests/uniaxial/data/stress_measure", "value": "first_piola_kirchhoff"}], first
     entry = next(one for one in studio.ask("project")["results"] if one["folder"] == job["folder"])
     assert entry["kind"] == "diagnosis" and entry["experiment"] == "mistaken.json" and entry["summary"]["verdict"] == "indistinguishable", entry
 

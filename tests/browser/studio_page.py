@@ -51,9 +51,12 @@ class Page:
         """The whole page; with a height its upper part, 1000 pixels wide, as docs/studio.md has it."""
         if not self.pictures:
             return
-        time.sleep(0.6)
         self.browser.run("document.getElementById('notice').textContent = ''")
+        wide, tall = self.browser.run("return [innerWidth, document.documentElement.scrollHeight]")
+        self.browser.size(wide, min(tall, 12000))  # charts are drawn where they are in sight
+        time.sleep(0.6)
         self.browser.screenshot(self.pictures / f"{name}.png", height, 1000 / 1280 if height else 1)
+        self.browser.size(wide, 900)
 
     def check_fits(self, width):
         wide = self.browser.run("return document.documentElement.scrollWidth")

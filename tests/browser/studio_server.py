@@ -124,6 +124,27 @@ def mistaken_experiment(source, folder):
     (folder / "mistaken.json").write_text(json.dumps(experiment, indent=1))
 
 
+def cohort_of_strips(folder, count):
+    """Neo-Hookean strips of 20 kPa and more, every fifth of which stiffens as the model does not; returns the cohort file."""
+    (folder / "curves").mkdir(parents=True)
+    lines = ["specimen,group"]
+    for k in range(count):
+        modulus, stiffening = 20 + 7 * (k % 11), 0.5 if k % 5 == 4 else 0
+        stretches = [1 + 0.02 * row for row in range(26)]
+        values = [modulus * (one - one**-2) * (1 + stiffening * (one - 1)) + 0.2 * (-1) ** row for row, one in enumerate(stretches)]
+        (folder / f"curves/s{k:03}.csv").write_text("stretch [-],stress [kPa]\n" + "".join(f"{one:.3f},{value:.4f}\n" for one, value in zip(stretches, values)))
+        lines.append(f"s{k:03},{'ab'[k % 2]}")
+    (folder / "specimens.csv").write_text("\n".join(lines) + "\n")
+    strip = {"type": "uniaxial", "direction": "axial", "data": {"file": "curves/s000.csv", "columns": {"stretch": "stretch", "stress": "stress"}, "stress_measure": "first_piola_kirchhoff",
+                                                                 "noise": {"absolute": "0.2 kPa"}}}
+    (folder / "one_strip.json").write_text(json.dumps({"format": 1, "name": "strip", "models": {"neo_hooke": {"type": "neo_hooke"}}, "tests": {"strip": strip},
+                                                       "optimizers": {"lm": {"type": "ceres_lm", "starts": 1}}, "runs": [{"model": "neo_hooke", "optimizer": "lm"}]}))
+    file = folder / "strips.json"
+    file.write_text(json.dumps({"format": 1, "name": "strips", "seed": 3, "experiment": "one_strip.json", "specimens": "specimens.csv",
+                                "bind": {"/tests/strip/data/file": "curves/{specimen}.csv"}}))
+    return file
+
+
 def slow_experiment(source, folder):
     """A fit that takes seconds, by finite elements; its files are copied from the examples."""
     example = source / "examples/cn_pressurisation"

@@ -3,16 +3,19 @@
 the browser is opened again, the server killed in the middle of a fit and taken up, names that would act are shown, and
 every page at 400 px, dark, with its names for screen readers. With --pictures there is one of each page in OUTPUT/pictures."""
 import argparse
+import json
 import pathlib
+import re
 import shutil
 import signal
 import statistics
+import subprocess
 import sys
 import time
 
 from browser import Browser, available
 from studio_page import Page
-from studio_server import Studio, mistaken_experiment, rig_file, slow_experiment
+from studio_server import Studio, cohort_of_strips, mistaken_experiment, rig_file, slow_experiment
 
 # Something is drawn on the canvas of points (0) or of lines (1) of the first chart.
 INK = """const c = document.querySelectorAll('.chart canvas')[arguments[0]];
@@ -152,8 +155,82 @@ def nothing_acts(page, folder, studio):
     assert page.browser.run("return window.hacked === undefined && !document.querySelector('img')"), "a name has acted"
 
 
+def one_sheet(page):
+    """A fit and a diagnosis are one page each, also from a dark screen, with their curves as ink."""
+    for name, words in (("strip-fit-1", "Agreement"), ("strip-diagnosis-1", "How much of the range is missed")):
+        page.go("sheet", f"results%2F{name}")
+        page.see(words)
+        page.browser.look(1280, "dark")
+        pages = len(re.findall(rb"/Type\s*/Page[^s]", page.browser.pdf()))
+        page.browser.look(1280, "light")
+        assert pages == 1, f"{name}: {pages} pages"
+    page.go("sheet", "results%2Fstrip-fit-1")
+    page.until(INK, 1)
+    page.picture("sheet")
+
+
+def editor(page, folder):
+    """What may stand at the caret, what the program says of the text and where, and a file that somebody else has changed."""
+    before = (folder / "strip.json").read_text()
+    page.go("file", "strip.json")
+    page.see("the program can read it")
+    page.browser.run("""const n = document.getElementById('text'); n.focus(); const at = n.value.indexOf('"runs"'); n.setSelectionRange(at, at);
+      document.execCommand('insertText', false, '"seeed": 3,\\n  ')""")
+    page.see("unknown key 'seeed'")
+    line = before[:before.index('"runs"')].count("\n") + 1
+    page.see(f"Go to line {line}")
+    assert page.browser.run("return document.querySelector('.numbers .wrong').textContent.trim()") == str(line)
+    page.click("Save")
+    page.until("return [...document.querySelectorAll('.box.bad')].length === 2")  # it is not written
+    assert (folder / "strip.json").read_text() == before
+    page.browser.run("""const n = document.getElementById('text'), at = n.value.indexOf('"seeed"'); n.focus(); n.setSelectionRange(at, at + 7)""")
+    page.browser.devtools("Input.dispatchKeyEvent", type="keyDown", key='"', text='"')
+    page.until("return !document.querySelector('.options').hidden")
+    offered = page.browser.run("return [...document.querySelectorAll('.options li')].map((one) => one.textContent)")
+    assert "seed" in offered and "tests" not in offered, offered
+    while page.browser.run("return document.querySelector('.options [aria-selected=true]').textContent") != "seed":
+        page.browser.key("ArrowDown")
+    page.browser.key("Enter")
+    page.see("the program can read it")
+    page.click("Save")
+    page.see("strip.json is saved")
+    assert json.loads((folder / "strip.json").read_text())["seed"] == 3
+    (folder / "strip.json").write_text(before)
+    page.click("Save")
+    page.see("the file has changed since")
+    assert (folder / "strip.json").read_text() == before
+    refused = [entry["message"] for entry in page.browser.log("browser")]
+    assert len(refused) == 2 and all("/api/save" in one for one in refused), refused
+
+
+def cohort(page, options, folder):
+    """Specimens as a grid: each drawn once it is in sight, worst first, and filtered."""
+    file = cohort_of_strips(folder / "many", 60)
+    subprocess.run([options.tunica, "cohort", str(file), "-o", str(folder / "results/strips"), "--quiet", "--no-reports"], check=True, stdout=subprocess.DEVNULL)
+    page.go("history")
+    page.click("Specimens")
+    page.see("60 of 60 specimens")
+    drawn = "return document.querySelectorAll('.tile .chart').length"
+    page.until(drawn + " >= 4")
+    assert page.browser.run(drawn) < 60, "all are drawn, though most are out of sight"
+    ids = page.browser.run("return [...document.querySelectorAll('.tile h3')].map((one) => one.textContent)")
+    assert sorted(ids[:12]) == [f"s{k:03}" for k in range(4, 60, 5)], ids
+    page.picture("cohort")
+    page.browser.run("document.querySelector('.tile:last-child').scrollIntoView()")
+    page.until("return document.querySelector('.tile:last-child .chart')")
+    page.browser.run("const n = [...document.querySelectorAll('select')].at(-1); n.value = 'fitted'; n.dispatchEvent(new Event('change'))")
+    page.see("60 of 60 specimens")
+    page.click("s004")
+    page.see("Agreement")
+
+
 def mistake_taken_back(page, folder):
-    """The file says true stresses and means nominal ones: the diagnosis offers it, and the copy fits."""
+    """The file says true stresses and means nominal ones: it is asked before any cause, the diagnosis offers it, and the copy
+    fits."""
+    page.go("model", "mistaken.json")
+    page.click("Try other readings")
+    page.see("are first Piola–Kirchhoff stresses, not Cauchy ones, this fits")
+    assert page.browser.run("return Boolean(document.querySelector('.mistake svg.meaning'))")
     page.go("causes", "mistaken.json")
     page.click("Diagnose")
     page.see("are first Piola–Kirchhoff stresses, not Cauchy ones, this fits")
@@ -169,7 +246,8 @@ def mistake_taken_back(page, folder):
 def every_page_narrow_and_dark(page, examples=("fit", "causes", "model")):
     page.browser.look(400, "dark")
     assert page.browser.run("return getComputedStyle(document.body).backgroundColor") == "rgb(22, 25, 29)"
-    for kind, name in (("", ""), ("history", ""), ("data", "strip.txt"), *((kind, "strip.json") for kind in examples)):
+    for kind, name in (("", ""), ("history", ""), ("data", "strip.txt"), ("file", "strip.json"), ("sheet", "results%2Fstrip-fit-1"), ("cohort", "results%2Fstrips"),
+                       *((kind, "strip.json") for kind in examples)):
         page.go(kind, name)
         time.sleep(0.3)
         page.check_fits(400)
@@ -236,6 +314,9 @@ def main():
             page.see("strip-diagnosis-1-extended-fit-1")
             page.go("fit", "strip.json")
             page.see("What came out")
+            one_sheet(page)
+            editor(page, folder)
+            cohort(page, options, folder)
             every_page_narrow_and_dark(page)
             page.check_quiet(studio.host)
             edits_change_only_what_is_shown(page)

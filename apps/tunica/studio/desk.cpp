@@ -55,6 +55,14 @@ std::string type_of(const std::filesystem::path& file) {
   return found == types.end() ? "application/octet-stream" : found->type;
 }
 
+/// The "text" of a question, or its "document".
+Workbench::Written written(const std::string& body) {
+  const auto question = detail::parse_json<json>(body);
+  const bool as_new = question.value("as_new", false);
+  if (question.contains("text")) return {question["text"].get<std::string>(), false, as_new};
+  return {question.at("document").dump(2) + '\n', true, as_new};
+}
+
 json save_upload(const std::string& wished, const std::string& bytes) {
   if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty; choose another one", text::excerpt(wished)));
   const FreeName name(inside(file_name(wished)));
@@ -127,12 +135,13 @@ json Desk::asked(const WebRequest& request) {
   if (path == "/api/project") return project();
   if (path == "/api/catalogue") return catalogue();
   if (path == "/api/example") return {{"file", open_example(text("name"))}};
+  if (path == "/api/example_curves") return example_curves(text("name"), session_.catalogue());
   if (path == "/api/look") return look_at_rig_files(question, session_.catalogue());
   if (path == "/api/import") return import_rig_files(question, session_.catalogue());
   if (path == "/api/document") return Workbench::document(text("file"));
   if (path == "/api/save")
-    return workbench_.save(text("file"), question.value("hash", std::string()),
-                           detail::parse_json<json>(request.body).at("document"), question.value("as_new", false));
+    return workbench_.save(text("file"), question.value("hash", std::string()), written(request.body));
+  if (path == "/api/proof") return workbench_.proof(text("file"), text("text"));
   if (path == "/api/problem") return workbench_.problem(text("file"));
   if (path == "/api/check") return workbench_.check(text("file"));
   if (path == "/api/judge") return workbench_.judge(text("file"), text("run"), question.at("values"));
@@ -167,6 +176,9 @@ WebReply Desk::operator()(const WebRequest& request) {
       return reply;
     }
     if (request.method != "POST") return problem(404, "there is no such page; open the address that was printed");
+    if (request.path == "/api/schema")
+      return {200, "application/json", experiment::compose_schema(session_.catalogue()),
+              guarded_headers("default-src 'none'")};
     if (request.path == "/api/simulate") return simulated(request.body);
     return json_reply(200, asked(request));
   } catch (const Refused& why) {

@@ -65,6 +65,16 @@ json of_diagnosis(const json& diagnosis) {
           {"tolerance", part(diagnosis, {"budget", "tolerance"})}};
 }
 
+json of_cohort(const json& result) {
+  std::size_t fitted = 0;
+  const json specimens = part(result, {"cohort", "specimens"});
+  for (const json& one : specimens) fitted += part(one, {"outcome"}) == "fitted" ? 1 : 0;
+  return {{"specimens", specimens.size()},
+          {"fitted", fitted},
+          {"verdict", part(result, {"diagnosis", "verdict"})},
+          {"rms", part(result, {"diagnosis", "size", "rms"})}};
+}
+
 double written(const fs::path& folder) {
   std::error_code none;
   const auto time = fs::last_write_time(folder, none);
@@ -93,7 +103,10 @@ json result_entry(const fs::path& folder, const std::vector<JobRecord>& jobs) {
   if (fs::exists(folder / "simulation.json")) entry["kind"] = "simulation";
   if (!result.is_object()) return entry;
   entry["name"] = part(result, {"name"});
-  if (result.contains("diagnosis") && result["diagnosis"].is_object()) {
+  if (result.contains("cohort")) {
+    entry["kind"] = "cohort";
+    entry["summary"] = of_cohort(result);
+  } else if (result.contains("diagnosis") && result["diagnosis"].is_object()) {
     entry["kind"] = "diagnosis";
     entry["summary"] = of_diagnosis(result["diagnosis"]);
   } else if (result.contains("discovery")) {

@@ -64,10 +64,13 @@ JobRecord of_experiment(const Session& session, const std::string& verb, const n
   JobRecord job{.verb = verb};
   job.experiment = file_inside(request.at("experiment").get<std::string>()).generic_string();
   static_cast<void>(read_confined(session, job.experiment));
-  job.folder = new_folder(stem_of(job.experiment), verb == "run"        ? "fit"
+  const bool readings = verb == "diagnose" && request.value("readings", false);  // of the file, before any other cause
+  job.folder = new_folder(stem_of(job.experiment), readings             ? "readings"
+                                                   : verb == "run"      ? "fit"
                                                    : verb == "diagnose" ? "diagnosis"
                                                                         : "discovery");
   job.words = {verb, job.experiment, "-o", job.folder};
+  if (readings) job.words.insert(job.words.end(), {"--groups", "file", "--quick", "--no-discovery"});
   if (verb == "diagnose" && request.value("quick", false)) job.words.emplace_back("--quick");
   return job;
 }

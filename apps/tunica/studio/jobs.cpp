@@ -150,6 +150,7 @@ json Jobs::entry(const JobRecord& job) const {
           {"verb", job.verb},
           {"command", text::quoted(words)},
           {"folder", job.folder},
+          {"readings", std::count(job.words.begin(), job.words.end(), "--groups") > 0},
           {"output", job.output},
           {"experiment", job.experiment},
           {"started", job.started},

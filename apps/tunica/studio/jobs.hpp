@@ -28,7 +28,8 @@ class Jobs {
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
-  /// What the page asks for: {"verb": run|diagnose|discover, "experiment"}, {"verb": "run", "resume": id},
+  /// What the page asks for: {"verb": run|diagnose|discover, "experiment", "quick", "readings": only what the file may
+  /// say and is not so}, {"verb": "run", "resume": id},
   /// {"verb": "report", "folders"} or {"verb": "export", "folder", "to", "units", "run"}. Returns as all() does. Throws
   /// InputError.
   nlohmann::ordered_json start(const nlohmann::json& request);

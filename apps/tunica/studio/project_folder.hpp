@@ -8,6 +8,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "plugins/catalogue.hpp"
+
 /// The project is a folder: experiments, files of rigs and results in it, and .tunica-studio for what the studio keeps.
 /// The working folder of the process is the project, so that every command that is shown works there.
 namespace tunica::app::studio {
@@ -46,8 +48,11 @@ std::string passing_name();
 /// and "copies", see copies().
 nlohmann::ordered_json contents();
 
-/// The worked examples that were installed: [{"name", "title"}].
+/// The worked examples that were installed: [{"name", "title", "learnt"}].
 nlohmann::ordered_json examples();
+/// What was measured in one, to be drawn small: of its first tests [{"test", "over", "observable", "unit", "x", "y"}],
+/// the first channel over the first abscissa in base units. Throws InputError.
+nlohmann::ordered_json example_curves(const std::string& name, const plugins::Catalogue& catalogue);
 /// Copies one, with the files of others that it names, and returns the experiment file. Throws InputError.
 std::string open_example(const std::string& name);
 

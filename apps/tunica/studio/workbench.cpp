@@ -21,6 +21,7 @@
 #include "execution/files.hpp"
 #include "execution/plan.hpp"
 #include "experiment/json_document.hpp"
+#include "experiment/placed_error.hpp"
 #include "serving/served_run.hpp"
 #include "studio/confined.hpp"
 #include "studio/doorkeeper.hpp"
@@ -146,6 +147,27 @@ std::string bytes_of(const json& head, const std::vector<float>& values) {
 /// Of the text of a file, to notice that somebody else has written it meanwhile.
 std::string hash_of(const std::string& text) { return fmt::format("{:016x}", std::hash<std::string>{}(text)); }
 
+/// A text as a file beside another one, where relative names of data begin at the same folder. It goes with this
+/// object.
+struct Trial {
+  fs::path file;
+  Trial(const fs::path& beside, const std::string& text) : file(beside.parent_path() / passing_name()) {
+    execution::write_atomically(file, text);
+  }
+  ~Trial() {
+    std::error_code none;
+    fs::remove(file, none);
+  }
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+  /// What is said of it, said of the other file.
+  [[nodiscard]] std::string named(std::string words, const std::string& name) const {
+    if (const auto at = words.find(file.string()); at != std::string::npos)
+      words.replace(at, file.string().size(), name);
+    return words;
+  }
+};
+
 void refuse_other_count(const std::vector<double>& values, const assembly::Assembly& assembly) {
   const std::size_t count = assembly.layout().parameters.size();
   if (values.size() != count)
@@ -192,37 +214,40 @@ json Workbench::document(const std::string& name) {
           {"commented", json::parse(document.text(), nullptr, false).is_discarded()}};
 }
 
-json Workbench::save(const std::string& name, const std::string& hash, const json& document, bool as_new) {
+json Workbench::save(const std::string& name, const std::string& hash, const Written& written) {
   const fs::path file = file_inside(name);
   const std::lock_guard one_at_a_time(saving_);
   const json present = Workbench::document(name);
-  const bool beside = as_new || present["commented"].get<bool>() || fs::exists(file.parent_path() / "result.json");
+  const bool loses_comments = written.is_document && present["commented"].get<bool>();
+  const bool beside = written.as_new || loses_comments || fs::exists(file.parent_path() / "result.json");
   if (!beside && present["hash"] != hash)
     throw Overtaken(fmt::format(
         "{}: the file has changed since the page read it; load the page again, and make the change anew", name));
-  // Relative names of data begin at the folder of the file, so that a copy stays there.
-  const fs::path trial = file.parent_path() / passing_name();
-  execution::write_atomically(trial, document.dump(2) + '\n');
+  const Trial trial(file, written.text);
   try {
-    static_cast<void>(read_confined(session_, trial));
+    static_cast<void>(read_confined(session_, trial.file));
   } catch (const InputError& problem) {
-    std::error_code none;
-    fs::remove(trial, none);
-    std::string words = problem.what();
-    if (const auto at = words.find(trial.string()); at != std::string::npos)
-      words.replace(at, trial.string().size(), name);
-    throw InputError(words);
-  } catch (...) {
-    std::error_code none;
-    fs::remove(trial, none);
-    throw;
+    throw InputError(trial.named(problem.what(), name));
   }
   std::optional<FreeName> copy;
   if (beside) copy.emplace(file);
   const fs::path target = copy ? copy->file : file;
-  fs::rename(trial, target);
+  fs::rename(trial.file, target);
   if (target != file) note_copy(target.generic_string(), file.generic_string());
   return {{"file", target.generic_string()}};
+}
+
+json Workbench::proof(const std::string& name, const std::string& text) const {
+  const Trial trial(file_inside(name), text);
+  try {
+    const auto experiment = read_confined(session_, trial.file);
+    static_cast<void>(execution::make_plan(experiment, session_.catalogue()));
+    return {{"error", nullptr}};
+  } catch (const experiment::PlacedError& problem) {
+    return {{"error", trial.named(problem.what(), name)}, {"line", problem.line}, {"column", problem.column}};
+  } catch (const InputError& problem) {
+    return {{"error", trial.named(problem.what(), name)}, {"line", nullptr}, {"column", nullptr}};
+  }
 }
 
 json Workbench::problem(const std::string& name) {

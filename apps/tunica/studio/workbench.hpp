@@ -30,11 +30,18 @@ class Workbench {
   /// The document without its comments, and the file's state: {"document", "text", "hash", "commented"}. Throws
   /// InputError.
   static nlohmann::ordered_json document(const std::string& file);
-  /// Writes a document: over the file where that had no comments and is nobody's result, else beside it. What the
-  /// program cannot read is not written. Returns {"file"}. Throws InputError, and Overtaken where the file to be
-  /// written over has another hash than document() gave.
-  nlohmann::ordered_json save(const std::string& file, const std::string& hash, const nlohmann::ordered_json& document,
-                              bool as_new);
+  /// What is to be written: a text as somebody has typed it, or a document, which has no comments.
+  struct Written {
+    std::string text;
+    bool is_document = false, as_new = false;
+  };
+  /// Writes over the file where that loses no comments and is nobody's result, else beside it. What the program cannot
+  /// read is not written. Returns {"file"}. Throws InputError, and Overtaken where the file to be written over has
+  /// another hash than document() gave.
+  nlohmann::ordered_json save(const std::string& file, const std::string& hash, const Written& written);
+  /// What the program says of a text in the place of the file: {"error": null or words, "line", "column"}, the place
+  /// null where the error has none. Writes nothing.
+  [[nodiscard]] nlohmann::ordered_json proof(const std::string& file, const std::string& text) const;
 
   /// {"name", "runs": [{"entry": number within "runs" of the file, "label", "model", "optimizer", "parameters": [{name,
   /// unit, min, max, initial, scale}], "fixed", "channels": [{test, observable, unit, over, over_unit, x, y, breaks:

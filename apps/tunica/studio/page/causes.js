@@ -2,14 +2,14 @@
 // The diagnosis: budget, causes on the data, and accepting one.
 import { bars } from "./bars.js";
 import { add, attempt, check, el, panel, put, shell } from "./dom.js";
-import { mend } from "./edits.js";
-import { newest, reportLink, watchJob } from "./jobs.js";
-import { ask, project, result, save } from "./server.js";
+import { newest, reportLink, sheetLink, watchJob } from "./jobs.js";
+import { mistakesOf } from "./readings.js";
+import { ask, project, result } from "./server.js";
 import { missed, number, percent, plain, quoted, unit, verdicts } from "./words.js";
 
 const groups = { material: 2, rig: 3, file: 4 };
 
-function budgetOf(budget, model) {
+export function budgetOf(budget, model) {
   if (!budget) return "";
   let before = budget.rms;
   const list = [{ name: `${plain(model)} alone`, share: budget.rms, note: missed(budget.rms), colour: 0 }];
@@ -21,22 +21,10 @@ function budgetOf(budget, model) {
     el("p", {}, `Tolerance ${percent(budget.tolerance)} (${budget.tolerance_origin}): `, el("span", { class: `tag ${budget.adequate ? "good" : "bad"}` }, budget.adequate ? "reached" : "not reached"))];
 }
 
-const cause = (one) => el("li", {}, el("div", {}, el("strong", {}, plain(one.id)), " ", el("span", { class: "tag" }, `in the ${one.group}`),
+export const causeLine = (one) => el("li", {}, el("div", {}, el("strong", {}, plain(one.id)), " ", el("span", { class: "tag" }, `in the ${one.group}`),
   " probability ", el("strong", {}, number(one.probability, 2)),
   one.amplitude ? el("span", {}, ` · ${one.amplitude.name} = ${number(one.amplitude.value)}${unit(one.amplitude.unit)}`, one.amplitude.ci95 ? ` (${number(one.amplitude.ci95[0])} … ${number(one.amplitude.ci95[1])})` : "") : "",
   el("p", {}, one.explanation)));
-
-/** What the file may say that is not so, and how much better it fits then; |r|² of the base and with it. */
-function mistake(name, read, base, one) {
-  const changed = structuredClone(read.document), place = el("li", {}, el("div", {}, el("strong", {}, `If ${one.sentence}, this fits ${number(base / one.squares, 2)} times better`), el("p", {}, el("small", {}, one.mend))));
-  if (!mend(changed, one)) return place;
-  place.append(el("button", { onclick: () => attempt(place, async () => {
-    const { file } = await save(name, read, changed, true);
-    await ask("start", { verb: "run", experiment: file });
-    location.hash = `#/fit/${encodeURIComponent(file)}`;
-  }) }, "Take it so, and fit"));
-  return place;
-}
 
 /** A file that the diagnosis wrote, to go on with. */
 function accept(folder, entry, place) {
@@ -51,18 +39,15 @@ function accept(folder, entry, place) {
 
 async function found(folder, entry, name) {
   const { diagnosis, warnings } = await result(folder), place = el("div");
-  const likely = diagnosis.causes ?? [], base = diagnosis.base?.squares ?? 0;
-  const mistakes = (diagnosis.file?.causes ?? []).filter((one) => one.probability > 0.01 && base > 2 * one.squares).slice(0, 5);
-  const read = mistakes.length ? await ask("document", { file: name }) : null;
+  const likely = diagnosis.causes ?? [], mistakes = await mistakesOf(name, diagnosis);
   add(place, el("p", { class: "verdict" }, verdicts[diagnosis.verdict] ?? diagnosis.verdict), [...(diagnosis.reasons ?? []), ...(diagnosis.explanations ?? [])].map((words) => el("p", {}, words)),
-    budgetOf(diagnosis.budget, diagnosis.base?.model ?? "the model"),
+    mistakes, budgetOf(diagnosis.budget, diagnosis.base?.model ?? "the model"),
     diagnosis.admissibility?.where ? el("div", { class: "box bad" }, el("strong", {}, "Stability is lost: "), diagnosis.admissibility.where, diagnosis.admissibility.remedy ? `; ${plain(diagnosis.admissibility.remedy)} restores it` : "") : "",
-    likely.length ? [el("h3", {}, "Causes"), el("ul", { class: "plain" }, likely.map(cause))] : "",
-    mistakes.length ? [el("h3", {}, "What the file may say that is not so"), el("ul", { class: "plain" }, mistakes.map((one) => mistake(name, read, base, one)))] : "",
+    likely.length ? [el("h3", {}, "Causes"), el("ul", { class: "plain" }, likely.map(causeLine))] : "",
     (entry?.leads_to ?? []).map((one) => accept(folder, one, place)),
     diagnosis.next_experiment?.description ? [el("h3", {}, "Next experiment"), el("p", {}, diagnosis.next_experiment.description)] : "",
     warnings?.length ? el("details", {}, el("summary", {}, `${warnings.length} warnings`), el("ul", {}, warnings.map((line) => el("li", {}, line)))) : "",
-    el("div", { class: "row" }, reportLink(folder)));
+    el("div", { class: "row" }, reportLink(folder), sheetLink(folder)));
   return place;
 }
 

@@ -36,14 +36,14 @@ function range(values) {
 }
 
 /**
- * series: [{name, x, y, points, colour (0 … 4), breaks: [row at which a new line begins], free: does not stretch the axes}].
+ * series: [{name, x, y, points, colour (0 … 4; of points only where they are tinted), breaks: [row at which a new line begins], free: does not stretch the axes}].
  * Returns {node, series, set(k, y, xs), rescale()}: set() moves a series within the axes as they are.
  */
 export function chart({ title, note = "", x, y, series, logY = false, height = 380, small = false }) {
   const below = el("canvas"), above = el("canvas"), back = below.getContext("2d"), front = above.getContext("2d");
   const measured = series.find((one) => one.points) ?? series[0];
   const place = el("div", { class: `chart${small ? " small" : ""}`, role: "img", id: newId(), tabindex: small ? null : "0",
-    "aria-label": `${title}: ${y} over ${x}${measured ? `; ${measured.name}, ${measured.y.length} rows, ${range(measured.x)} and ${range(measured.y)}` : ""}` }, below, above);
+    "aria-label": `${title ? `${title}: ` : ""}${y} over ${x}${measured ? `; ${measured.name}, ${measured.y.length} rows, ${range(measured.x)} and ${range(measured.y)}` : ""}` }, below, above);
   place.style.setProperty("--height", `${height}px`);
   let whole, view = null, scale = null, seen = false, stale = true, queued = false;
 
@@ -70,7 +70,7 @@ export function chart({ title, note = "", x, y, series, logY = false, height = 3
     scale = scales(xs, ys, logY, width, tall, small);
     fit(below, back, width, tall);
     drawAxes(back, scale, { x, y }, colours);
-    series.forEach((one) => { if (one.points) drawPoints(back, scale, one, colours.data, small); });
+    series.forEach((one) => { if (one.points) drawPoints(back, scale, one, one.tinted ? colours.series[one.colour ?? 0] : colours.data, small); });
     lines(colours);
   }
   const soon = () => {
@@ -126,7 +126,7 @@ export function chart({ title, note = "", x, y, series, logY = false, height = 3
   const button = (sign, words, act) => el("button", { type: "button", "aria-label": `${words}: ${title}`, title: words, onclick: act }, sign);
   if (!small) interact();
   const many = series.filter((one) => !one.points).length > 1 || series.some((s) => s.points);
-  const node = el("figure", {}, el("figcaption", {}, title, note ? el("small", {}, note) : null), place,
+  const node = el("figure", {}, title ? el("figcaption", {}, title, note ? el("small", {}, note) : null) : null, place,
     small ? null : el("div", { class: "under" },
       many ? el("div", { class: "legend" }, series.map((one) => el("span", { class: `s${one.colour ?? 0}` }, one.points ? "● " : el("i"), one.name))) : el("span"),
       el("div", { class: "zoom" }, button("+", "Zoom in", () => zoom(0.6)), button("−", "Zoom out", () => zoom(1 / 0.6)), button("⤢", "Whole curve", reset))));

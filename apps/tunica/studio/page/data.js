@@ -2,18 +2,17 @@
 // `tunica import` as a form: what was understood of a rig's files, and what they do not say.
 import { chart } from "./chart.js";
 import { add, attempt, choice, el, field, panel, problem, put, shell } from "./dom.js";
+import { columnMeanings, pictured, strainMeasures, stressMeasures } from "./measures.js";
 import { ask } from "./server.js";
 import { axis, plain, quoted, unit } from "./words.js";
 
-const measures = { cauchy: "true stress (Cauchy)", first_piola_kirchhoff: "nominal stress (over the section at rest)", second_piola_kirchhoff: "second Piola–Kirchhoff stress" };
+const measures = Object.fromEntries(Object.entries(stressMeasures).map(([code, one]) => [code, one.words]));
 const uses = ["force", "displacement", "stretch", "strain", "stress", "time", "pressure", "length", "outer_diameter", "axial_force"];
 
 /** Texts that every file may need; [option, name, hint, choices]. */
 const more = [
   ["area", "Area of the section", "in place of width and thickness, as 9 mm2"],
   ["diameter", "Diameter of a cylinder", "in place of width and thickness"],
-  ["stress-measure", "Measure of stresses in the file", "", [["", "as the file says, or the default"], ...Object.entries(measures)]],
-  ["strain-measure", "Definition of strains in the file", "", [["", "as the file says, or asked"], ["engineering", "engineering: ΔL / L"], ["true", "true: ln λ"], ["green", "Green: (λ² − 1) / 2"]]],
   ["cycle", "Cycles to use", "last, all, none or a number"],
   ["branch", "Branch of the cycles", "", [["", "both"], ["loading", "loading"], ["unloading", "unloading"]]],
   ["preload", "Preload at which the test begins", "as 0.05 N; cuts a slack beginning off"],
@@ -25,7 +24,7 @@ const more = [
 export async function dataPage(place, all, name) {
   const files = name.split("\n"), catalogue = await ask("catalogue");
   const texts = new Map(), asked = new Map(), used = new Map(), units = new Map();
-  const questions = el("div"), columns = el("div", { class: "scroll" }), pictures = el("div"), understood = el("div"), command = el("div"), failed = el("div");
+  const questions = el("div"), meanings = el("div"), columns = el("div", { class: "scroll" }), pictures = el("div"), understood = el("div"), command = el("div"), failed = el("div");
 
   const request = () => ({
     files,
@@ -39,7 +38,8 @@ export async function dataPage(place, all, name) {
     output: output.value.trim()
   });
 
-  function showQuestions(list) {
+  function showQuestions(all) {
+    const list = all.filter((one) => !/^--str(ess|ain)-measure/.test(one.option)); // they have pictures
     for (const one of asked.values()) one.shown = false;
     for (const question of list) {
       if (!asked.has(question.option)) {
@@ -55,7 +55,7 @@ export async function dataPage(place, all, name) {
       questions.replaceChildren(...nodes);
       if (questions.contains(focused)) focused.focus();
     }
-    if (!nodes.length) questions.replaceChildren(el("p", { class: "muted" }, "The files say everything that is needed."));
+    if (!nodes.length) questions.replaceChildren(list.length < all.length ? el("p", {}, "Say which one the file holds:") : el("p", { class: "muted" }, "The files say everything that is needed."));
   }
 
   function showColumns(list) {
@@ -66,6 +66,13 @@ export async function dataPage(place, all, name) {
         units.set(one.name, el("input", { type: "text", size: 6, placeholder: one.unit, "aria-label": `Unit of ${one.title}`, oninput: soon }));
         return el("tr", {}, el("th", { scope: "row" }, one.title), el("td", {}, el("small", {}, one.preview.join("  "))), el("td", {}, one.kind || "–"), el("td", {}, used.get(one.name)), el("td", {}, units.get(one.name)));
       }))));
+  }
+
+  /** What a file holds is asked where it holds it: a stress, or a strain. */
+  function showMeanings({ columns: list }) {
+    const holds = (what) => list?.some((one) => (used.get(one.name)?.value || one.quantity || one.kind).includes(what));
+    const wanted = [holds("stress") ? stress.node : null, holds("strain") ? strain.node : null].filter(Boolean);
+    if (wanted.length !== meanings.children.length || wanted.some((node, k) => meanings.children[k] !== node)) put(meanings, wanted);
   }
 
   function draw(look) {
@@ -91,6 +98,7 @@ export async function dataPage(place, all, name) {
     const mine = ++turn, seen = await ask("look", request());
     if (mine !== turn) return;
     showColumns(seen.columns);
+    showMeanings(seen);
     showQuestions(seen.questions);
     draw(seen);
   });
@@ -102,6 +110,10 @@ export async function dataPage(place, all, name) {
     texts.set(key, control);
     return field(title, control, hint);
   };
+  const stress = pictured("Stresses in the file are", "stress-measure", "as the file says", stressMeasures, soon);
+  const strain = pictured("Strains in the file are", "strain-measure", "as the file says", strainMeasures, soon);
+  texts.set("stress-measure", stress);
+  texts.set("strain-measure", strain);
   const compression = choice([["", "negative, or not stated"], ["positive", "positive"]], "", { onchange: soon });
   const output = el("input", { type: "text", placeholder: files[0].replace(/\.[^.]*$/, ".json"), oninput: soon });
   const write = el("button", { class: "main", onclick: () => attempt(failed, async () => {
@@ -111,10 +123,10 @@ export async function dataPage(place, all, name) {
   const kinds = (what) => [["", "as the columns suggest"], ...catalogue[what].map((one) => [one.name, plain(one.name)])];
 
   add(place, el("h1", {}, files.join(", ")), el("div", { class: "wide" },
-    el("div", {}, panel("What the file does not say", questions,
+    el("div", {}, panel("What the file does not say", questions, meanings,
         el("details", {}, el("summary", {}, "Section, stress, cycles, preload"), more.map(option), field("Sign of compression in the file", compression)),
         option(["test", "Test", "", kinds("tests")]), option(["model", "Model to begin with", "", kinds("models")]),
         field("Name of the experiment file", output), write, failed, command)),
-    el("div", {}, panel("What was understood", pictures, understood), panel("Columns", columns))));
+    el("div", {}, panel("What was understood", pictures, understood), panel("Columns", columns, columnMeanings()))));
   await look();
 }

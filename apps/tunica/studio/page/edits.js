@@ -64,17 +64,16 @@ export function setTests(document, entry, used, heldOut, weights) {
   }
 }
 
-/** What a cause of the group "file" says instead, as its `mend` has it; false where that is no key of the data. */
-export function mend(document, cause) {
-  const [, measure] = cause.mend.match(/^"stress_measure": "(\w+)"/) ?? [];
-  if (measure) {
-    for (const test of cause.tests) document.tests[test].data.stress_measure = measure;
-    return true;
+/** A copy with values added as a JSON Patch of "add" has them (RFC 6902). */
+export function patched(document, changes) {
+  const copy = structuredClone(document);
+  for (const { path, value } of changes) {
+    const keys = path.slice(1).split("/").map((key) => key.replaceAll("~1", "/").replaceAll("~0", "~")), last = keys.pop();
+    const place = keys.reduce((at, key) => (at !== null && typeof at === "object" && Object.hasOwn(at, key) ? at[key] : undefined), copy);
+    if (place === undefined || place === null || typeof place !== "object") throw new Error(`the file has no place ${path}; make the change there by hand`);
+    if (last === "-") place.push(value); else place[last] = value;
   }
-  const [, mechanisms] = cause.mend.match(/^"mechanisms": (\[.*?\]) into/) ?? [];
-  if (!mechanisms) return false;
-  for (const test of cause.tests) document.tests[test].mechanisms = [...(document.tests[test].mechanisms ?? []), ...JSON.parse(mechanisms)];
-  return true;
+  return copy;
 }
 
 /** A run of the first run's model for each optimiser, at one budget; every other run stays. */

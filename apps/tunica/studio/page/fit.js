@@ -3,7 +3,7 @@
 import { chart } from "./chart.js";
 import { attempt, check, el, panel, problem, put, unseen } from "./dom.js";
 import { setRuns } from "./edits.js";
-import { newest, reportLink, watchJob } from "./jobs.js";
+import { newest, reportLink, sheetLink, watchJob } from "./jobs.js";
 import { simulate } from "./live.js";
 import { ask, project, result, save, view } from "./server.js";
 import { axis, number, percent, plain, unit } from "./words.js";
@@ -53,7 +53,7 @@ export async function outcome(folder, name) {
   if (best && name) parts.unshift(curves);
   if (best && name) attempt(curves, async () => curves.append(...[await fitted(name, first, best.parameters)].flat()));
   const files = Object.keys(best?.per_test ?? {}).map((test) => el("a", { class: "button", href: view(`${folder}/fit_${test}.csv`), download: `fit_${test}.csv` }, `fit_${test}.csv`));
-  parts.push(el("div", { class: "row" }, reportLink(folder, "Report (a page for the thesis)"), files), card(folder),
+  parts.push(el("div", { class: "row" }, reportLink(folder, "Report"), sheetLink(folder), files), card(folder),
     el("details", {}, el("summary", {}, "In Python"), el("pre", {}, `import tunica\nresult = tunica.open(${JSON.stringify(folder)})\nprint(result.best)`)));
   return parts;
 }

@@ -2,7 +2,7 @@
 // What was tried, as a tree: an experiment, its results, what they led to.
 import { add, attempt, el, panel, put, unseen } from "./dom.js";
 import { outcome } from "./fit.js";
-import { jobLine, reportLink, watchJob } from "./jobs.js";
+import { jobLine, reportLink, sheetLink, watchJob } from "./jobs.js";
 import { ask, view } from "./server.js";
 import { missed, number, plain, unit, verdicts, when } from "./words.js";
 
@@ -29,6 +29,7 @@ function words(entry) {
   const best = entry.summary?.runs?.find((one) => one.rms === Math.min(...entry.summary.runs.map((run) => run.rms ?? Infinity))) ?? entry.summary?.runs?.[0];
   if (best) return [best.rms ?? null, `${best.run}: ` + Object.entries(best.parameters ?? {}).map(([name, one]) => `${name} ${number(one.value)}${unit(one.unit)}`).join(", ")];
   if (entry.kind === "diagnosis") return [entry.summary.rms, `${verdicts[entry.summary.verdict] ?? entry.summary.verdict}${entry.summary.causes?.length ? `: ${entry.summary.causes.map((one) => plain(one.id)).join(", ")}` : ""}`];
+  if (entry.kind === "cohort") return [entry.summary.rms, `${entry.summary.fitted} of ${entry.summary.specimens} specimens fitted${entry.summary.verdict ? `; ${verdicts[entry.summary.verdict] ?? entry.summary.verdict}` : ""}`];
   return [null, entry.kind];
 }
 
@@ -44,7 +45,7 @@ export async function historyPage(place, all) {
     boxes.set(row.name, box);
     name.append(row.name.replace(/^results\//, ""), " ", el("span", { class: "tag" }, row.entry.kind));
     return el("tr", {}, el("td", {}, box), name, el("td", { class: "n" }, missed(rms)), el("td", {}, text), el("td", {}, el("small", {}, when(row.entry.written))),
-      el("td", {}, el("div", { class: "row" }, row.entry.report ? reportLink(row.name) : "", row.entry.kind === "run" ? el("button", { onclick: () => attempt(below, async () =>
+      el("td", {}, el("div", { class: "row" }, row.entry.report ? reportLink(row.name) : "", row.entry.kind === "cohort" ? el("a", { class: "button", href: `#/cohort/${encodeURIComponent(row.name)}` }, "Specimens") : "", ["run", "diagnosis"].includes(row.entry.kind) ? sheetLink(row.name) : "", row.entry.kind === "run" ? el("button", { onclick: () => attempt(below, async () =>
         put(below, panel(row.name, await outcome(row.name, row.entry.experiment)))) }, "Take away") : "")));
   };
   const compare = el("button", { onclick: () => attempt(below, async () => {

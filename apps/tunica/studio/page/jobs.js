@@ -68,7 +68,7 @@ export function watchJob(place, job, ended) {
     },
     end(last) {
       bar.remove();
-      all.open = last.state !== "done";
+      all.open = !["done", "not_converged"].includes(last.state);
       stop.remove();
       state.textContent = states[last.state];
       state.classList.remove("bad");
@@ -87,6 +87,8 @@ const resume = (place, job, ended) => el("button", { class: "main", onclick: () 
 }) }, "Go on where it stopped");
 
 /** The newest job of an experiment with this verb, if it is not superseded. */
-export const newest = (all, verb, experiment) => all.jobs.find((job) => job.verb === verb && job.experiment === experiment);
+export const newest = (all, verb, experiment, readings = false) => all.jobs.find((job) => job.verb === verb && job.experiment === experiment && job.readings === readings);
 
+/** One page, to print. */
+export const sheetLink = (folder) => el("a", { class: "button", href: `#/sheet/${encodeURIComponent(folder)}` }, "One page (PDF)");
 export const reportLink = (folder, text = "Report") => el("a", { class: "button", href: view(`${folder}/report.html`), target: "_blank", rel: "noopener" }, text);

@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// One page a hash: #/, #/history, #/data/FILE, #/model/EXPERIMENT, #/fit/…, #/causes/….
+// One page a hash: #/, #/history, #/data/FILE, #/model/EXPERIMENT, #/fit/…, #/causes/…, #/file/EXPERIMENT, #/cohort/RESULT, #/sheet/RESULT.
 import { causesPage } from "./causes.js";
+import { cohortPage } from "./cohort.js";
 import { dataPage } from "./data.js";
 import { el, problem } from "./dom.js";
+import { editorPage } from "./editor.js";
 import { fitPage } from "./fit.js";
 import { historyPage } from "./history.js";
 import { materialPage } from "./material.js";
 import { project, unfollow } from "./server.js";
+import { sheetPage } from "./sheet.js";
 import { startPage } from "./start.js";
 
-const pages = { "": startPage, data: dataPage, model: materialPage, fit: fitPage, causes: causesPage, history: historyPage };
+const pages = { "": startPage, data: dataPage, model: materialPage, fit: fitPage, causes: causesPage, history: historyPage,
+  cohort: cohortPage, sheet: sheetPage, file: editorPage };
 const steps = [["model", "Material"], ["fit", "Fit"], ["causes", "What is wrong"]];
 let leave = null;
 
 function stepsOf(kind, name) {
   if (kind === "data") return el("nav", { "aria-label": "Steps" }, el("ol", { class: "steps" }, el("li", {}, el("a", { href: location.hash, "aria-current": "step" }, el("b", {}, "1"), "Data"))));
-  if (!name || kind === "history") return "";
+  if (!name || !steps.some(([step]) => step === kind)) return "";
   return el("nav", { "aria-label": "Steps" }, el("ol", { class: "steps" }, steps.map(([step, title], k) =>
     el("li", {}, el("a", { href: `#/${step}/${encodeURIComponent(name)}`, "aria-current": step === kind ? "step" : null }, el("b", {}, k + 2), title))),
     el("li", {}, el("a", { href: "#/history" }, el("b", {}, "5"), "Compare and take away"))));

@@ -4,6 +4,7 @@ import { chart } from "./chart.js";
 import { add, attempt, check, choice, el, field, notice, panel, problem, put, shell } from "./dom.js";
 import { setModel, setParameters, setTests } from "./edits.js";
 import { simulate } from "./live.js";
+import { readingsPanel } from "./readings.js";
 import { ask, save } from "./server.js";
 import { latest, rested, sliders } from "./sliders.js";
 import { axis, number, percent, plain, quoted, unit } from "./words.js";
@@ -87,9 +88,9 @@ export async function materialPage(place, all, name) {
   const below = el("div");
   place.append(el("h1", {}, name), below);
   const problemOf = await attempt(below, () => ask("problem", { file: name }));
-  const checks = panel("Check");
+  const checks = panel("Check"), readings = readingsPanel(all, name);
   checked(checks, name);
-  if (!problemOf) { place.append(checks, text(file)); return; }
+  if (!problemOf) { place.append(checks, text(name, file)); return; }
   let run = problemOf.runs[0];
   const choose = problemOf.runs.length > 1 ? field("Run", choice(problemOf.runs.map((one) => [one.label, one.label]), run.label, { onchange: (event) => show(problemOf.runs.find((one) => one.label === event.target.value)) })) : "";
   const body = el("div");
@@ -132,10 +133,10 @@ export async function materialPage(place, all, name) {
           el("p", {}, el("small", {}, "A shell simulates at the values that the file holds; keep those of the sliders first.")),
           shell(`tunica simulate ${quoted(name)} --model ${quoted(run.model)} -o predicted`))),
       el("div", {}, panel("Curve over the data", charts.map((one) => one.node), quality, stable, failed, el("div", { class: "row" }, el("a", { class: "button", href: to("fit", name) }, "Next: fit"))),
-        testsPanel(name, run, file, open), checks, text(file))));
+        testsPanel(name, run, file, open), readings, checks, text(name, file))));
   }
   show(run);
   return () => (gone = true);
 }
 
-const text = (file) => el("details", { class: "panel" }, el("summary", {}, "The experiment file"), el("pre", {}, file.text));
+const text = (name, file) => el("details", { class: "panel" }, el("summary", {}, "The experiment file"), el("p", {}, el("a", { class: "button", href: to("file", name) }, "Edit the file")), el("pre", { tabindex: 0 }, file.text));

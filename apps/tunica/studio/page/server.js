@@ -20,8 +20,6 @@ async function reach(path, options) {
   }
 }
 
-const answer = async (response) => (await whole(response)).json();
-
 export const post = async (what, question) => whole(await reach(`/api/${what}`, { method: "POST", body: JSON.stringify(question) }));
 export const ask = async (what, question = {}) => (await post(what, question)).json();
 
@@ -29,7 +27,7 @@ export const ask = async (what, question = {}) => (await post(what, question)).j
 export const save = (file, read, document, as_new = false) => ask("save", { file, hash: read.hash, document, as_new });
 
 export const upload = async (file) =>
-  answer(await reach(`/api/upload?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file }));
+  (await whole(await reach(`/api/upload?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file }))).json();
 
 export async function project() {
   const all = await ask("project");
@@ -40,10 +38,13 @@ export async function project() {
 /** The address of a file of the project, for links. */
 export const view = (name) => viewed + name.split("/").map(encodeURIComponent).join("/");
 
-export async function result(folder) {
+async function shown(name) {
   if (viewed === "/") await project();
-  return answer(await reach(view(`${folder}/result.json`)));
+  return whole(await reach(view(name)));
 }
+/** A file of the project, as text. */
+export const file = async (name) => (await shown(name)).text();
+export const result = async (folder) => (await shown(`${folder}/result.json`)).json();
 
 const followed = new Set();
 
