@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """How long the page of `tunica studio` takes from a slider to the frame that shows the curve, and from a wheel or a
-drag over a chart to its frame, in headless Chromium. Prints medians and the worst; asserts nothing.
+drag over a chart to its frame, and how a cohort scrolls, in headless Chromium. Prints medians and the worst; asserts nothing.
 
-    bench/studio_speed.py [--tunica build/release/bin/tunica] [--moves 200] [--profile]
+    bench/studio_speed.py [--tunica build/release/bin/tunica] [--moves 200] [--specimens 500] [--profile]
 
 Sliders move every 20 ms, at any phase of the frames, which come every 16.7 ms. `to frame` is from the event to the end of
 the frame's drawing, for every frame that shows a new answer; `answer` is the part until the answer of the server has come,
@@ -14,6 +14,7 @@ import json
 import math
 import pathlib
 import statistics
+import subprocess
 import sys
 import tempfile
 
@@ -21,7 +22,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(SOURCE / "tests/browser"))
 from browser import Browser  # noqa: E402
 from studio_page import Page  # noqa: E402
-from studio_server import Studio  # noqa: E402
+from studio_server import Studio, cohort_of_strips  # noqa: E402
 
 MOVE = """const [moves, done] = [arguments[0], arguments[1]], knobs = [...document.querySelectorAll('[data-parameter]')];
 window.tunicaFrames = [];
@@ -35,7 +36,7 @@ const step = () => {
 step();"""
 
 WHEEL = """const [moves, done] = [arguments[0], arguments[1]], place = document.querySelector('.chart').getBoundingClientRect();
-const target = document.querySelector('.chart .view') ?? document.querySelector('.chart');
+const target = document.querySelector('.chart');
 const times = [];
 let k = 0, last = 0;
 const step = (now) => {
@@ -90,6 +91,18 @@ def many_rows(folder, count=50000):
     return experiment(folder, "many", {"type": "neo_hooke"}, {"strip": test})
 
 
+SCROLL = """const [steps, done] = arguments, times = [];
+let k = 0, last = 0;
+const step = (now) => {
+  if (k > 1) times.push(now - last);
+  last = now;
+  scrollBy(0, 60);
+  if (++k < steps && scrollY + innerHeight < document.documentElement.scrollHeight - 1) requestAnimationFrame(step);
+  else setTimeout(() => done([times, document.querySelectorAll('.tile .chart').length]), 300);
+};
+requestAnimationFrame(step);"""
+
+
 def asynchronous(browser, script, *arguments):
     return browser.call("POST", browser.session + "/execute/async", {"script": script, "args": list(arguments)})
 
@@ -115,7 +128,6 @@ def sliders(page, name, moves, profile):
         page.browser.devtools("Profiler.enable"), page.browser.devtools("Profiler.start")
     frames = asynchronous(page.browser, MOVE, moves)
     seen = hot(page.browser.devtools("Profiler.stop")["profile"]) if profile else []
-    frames = [one if isinstance(one, dict) else {"frame": one} for one in frames]
     print(f"{name}: {moves} moves, {len(frames)} frames")
     for key, title in (("frame", "to frame"), ("answer", "answer"), ("drawing", "drawing"), ("server", "server")):
         print(row(title, [one[key] for one in frames if key in one]))
@@ -134,10 +146,26 @@ def zoom(page, name, moves, profile):
     print("\n".join(seen), flush=True)
 
 
+def specimens(page, folder, tunica, count):
+    file = cohort_of_strips(folder / "many", count)
+    subprocess.run([tunica, "cohort", str(file), "-o", str(folder / "results/many"), "--quiet", "--no-reports"], check=True, stdout=subprocess.DEVNULL)
+    page.go("cohort", "results%2Fmany")
+    page.see(f"{count} of {count} specimens")
+    times, drawn = asynchronous(page.browser, SCROLL, 2000)
+    print(f"{count} specimens, scrolled through, {drawn} drawn on the way: {1000 / statistics.mean(times):.0f} frames a second")
+    print(row("frame", times))
+    arranged = asynchronous(page.browser, """const done = arguments[0], order = [...document.querySelectorAll('select')].at(-2), begun = performance.now();
+      order.value = 'id';
+      order.dispatchEvent(new Event('change'));
+      requestAnimationFrame(() => setTimeout(() => done(performance.now() - begun)));""")
+    print(f"  sorted by name in {arranged:.0f} ms", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tunica", default=str(SOURCE / "build/release/bin/tunica"))
     parser.add_argument("--moves", type=int, default=200)
+    parser.add_argument("--specimens", type=int, default=500, help="of a cohort, which is fitted for it; 0: none")
     parser.add_argument("--profile", action="store_true")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
@@ -151,6 +179,8 @@ def main():
             for file in files:
                 sliders(page, file, options.moves, options.profile)
             zoom(page, files[-1], options.moves, options.profile)
+            if options.specimens:
+                specimens(page, folder, options.tunica, options.specimens)
     return 0
 
 

@@ -6,7 +6,7 @@ import re
 
 GAP = "⟨…⟩"
 NAMES = "⟨the nearest name, then all there are⟩"
-SINKS = {"InputError", "Refused", "PluginRefused", "LoadError", "PluginFailure", "HostFault", "invalid_argument",
+SINKS = {"InputError", "PlacedError", "Refused", "PluginRefused", "LoadError", "PluginFailure", "HostFault", "invalid_argument",
          "MemoryFault", "NotApplicable", "NothingSuits",
          "runtime_error", "failed", "infeasible", "push_back", "say_error", "say_warning", "fail", "refuse", "warn",
          "Warning"}

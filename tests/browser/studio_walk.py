@@ -19,7 +19,10 @@ from studio_server import Studio, cohort_of_strips, mistaken_experiment, rig_fil
 
 # Something is drawn on the canvas of points (0) or of lines (1) of the first chart.
 INK = """const c = document.querySelectorAll('.chart canvas')[arguments[0]];
-  return Boolean(c && c.width && new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer).some(Boolean))"""
+  if (!c || !c.width) return false;
+  const copy = new OffscreenCanvas(c.width, c.height).getContext('2d', { willReadFrequently: true });
+  copy.drawImage(c, 0, 0);
+  return new Uint32Array(copy.getImageData(0, 0, c.width, c.height).data.buffer).some(Boolean)"""
 MARKUP = "<img src=x onerror=window.hacked=1>"
 
 

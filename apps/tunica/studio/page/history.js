@@ -45,8 +45,8 @@ export async function historyPage(place, all) {
     boxes.set(row.name, box);
     name.append(row.name.replace(/^results\//, ""), " ", el("span", { class: "tag" }, row.entry.kind));
     return el("tr", {}, el("td", {}, box), name, el("td", { class: "n" }, missed(rms)), el("td", {}, text), el("td", {}, el("small", {}, when(row.entry.written))),
-      el("td", {}, el("div", { class: "row" }, row.entry.report ? reportLink(row.name) : "", row.entry.kind === "cohort" ? el("a", { class: "button", href: `#/cohort/${encodeURIComponent(row.name)}` }, "Specimens") : "", ["run", "diagnosis"].includes(row.entry.kind) ? sheetLink(row.name) : "", row.entry.kind === "run" ? el("button", { onclick: () => attempt(below, async () =>
-        put(below, panel(row.name, await outcome(row.name, row.entry.experiment)))) }, "Take away") : "")));
+      el("td", {}, el("div", { class: "row" }, row.entry.report ? reportLink(row.name) : "", row.entry.kind === "cohort" ? el("a", { class: "button", href: `#/cohort/${encodeURIComponent(row.name)}` }, "Specimens") : "", ["run", "diagnosis"].includes(row.entry.kind) ? sheetLink(row.name) : "", row.entry.kind === "run" ? el("button", { onclick: () => attempt(below, async () => {
+        put(below, panel(row.name, await outcome(row.name, row.entry.experiment))); below.scrollIntoView(); }) }, "Take away") : "")));
   };
   const compare = el("button", { onclick: () => attempt(below, async () => {
     const folders = [...boxes].filter(([, box]) => box.checked).map(([folder]) => folder);

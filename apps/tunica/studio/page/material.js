@@ -132,7 +132,7 @@ export async function materialPage(place, all, name) {
           run.fixed.length ? el("p", {}, el("small", {}, "Held: ", run.fixed.map((one) => `${one.name} = ${number(one.value)}${unit(one.unit)}`).join(", "))) : "",
           el("p", {}, el("small", {}, "A shell simulates at the values that the file holds; keep those of the sliders first.")),
           shell(`tunica simulate ${quoted(name)} --model ${quoted(run.model)} -o predicted`))),
-      el("div", {}, panel("Curve over the data", charts.map((one) => one.node), quality, stable, failed, el("div", { class: "row" }, el("a", { class: "button", href: to("fit", name) }, "Next: fit"))),
+      el("div", {}, panel("Curve over the data", charts.map((one) => one.node), quality, stable, failed, el("div", { class: "row" }, el("a", { class: "button main", href: to("fit", name) }, "Next: fit"))),
         testsPanel(name, run, file, open), readings, checks, text(name, file))));
   }
   show(run);

@@ -25,7 +25,7 @@ function mistake(name, read, base, one) {
 
 /** Those of a diagnosis that gain something, with a heading; nothing where there are none. */
 export async function mistakesOf(name, diagnosis) {
-  const base = diagnosis.base?.squares ?? 0, list = (diagnosis.file?.causes ?? []).filter((one) => one.probability > 0.01 && base > 2 * one.squares).slice(0, 5);
+  const base = diagnosis.base?.squares ?? 0, list = (diagnosis.file?.causes ?? []).filter((one) => one.probability > 0.01 && base > 2 * one.squares && !one.amplitudes?.every((size) => size === 0)).slice(0, 5);
   if (!list.length) return "";
   const read = await ask("document", { file: name });
   return [el("h3", {}, "What the file may say that is not so"), el("ul", { class: "plain" }, list.map((one) => mistake(name, read, base, one)))];
