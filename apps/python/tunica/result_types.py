@@ -1167,6 +1167,9 @@ class FileCause(TypedDict):
     sentence: str
     #: What to write into the file.
     mend: str
+    #: The mend as a JSON Patch (RFC 6902) of the experiment file, without its comments. Left out where keys alone do
+    #: not mend it: numbers of the data, or a stated noise, would have to change too.
+    changes: NotRequired[list[FileChange]]
     #: Sum of whitened squares of the base model with the mistake mended.
     squares: float
     #: p_value of what it then leaves.
@@ -1179,6 +1182,16 @@ class FileCause(TypedDict):
     mechanism: NotRequired[str]
     #: Its fitted amplitudes, in base units: one, or one for each direction of a sheet. Unit: base unit.
     amplitudes: NotRequired[list[float]]
+
+
+class FileChange(TypedDict):
+    """One operation of a JSON Patch (RFC 6902)."""
+    #: What is done: the value is added, in place of what was there.
+    op: Literal['add']
+    #: Where: a JSON pointer (RFC 6901).
+    path: str
+    #: What is written there: a word, an object of the experiment file, or a list of them.
+    value: str | dict[str, str | float] | list[dict[str, str]]
 
 
 class DiagnosisExtension(TypedDict):

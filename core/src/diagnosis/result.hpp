@@ -160,6 +160,12 @@ struct Amplitude {
   bool at_bound = false, plausible = true;
 };
 
+/// An operation of a JSON Patch (RFC 6902) of the experiment file: the value is added there, in place of what was
+/// there.
+struct Change {
+  std::string path, value;  ///< a JSON pointer; JSON
+};
+
 /// A mistake that the file may have: with it mended, the base model is fitted again.
 struct FileCause {
   FileKind kind = FileKind::unit;
@@ -172,6 +178,7 @@ struct FileCause {
   bool near = false;           ///< as good as the likeliest of them: one answer with it
   std::string mechanism = {};  ///< that stands for it, where it has an amplitude
   std::vector<Amplitude> amplitudes = {};  ///< of it
+  std::vector<Change> changes = {};        ///< the mend, where it is a matter of keys of the experiment file
 };
 
 /// How a mistake of the file stands against causes in the material and in the rig.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/file/changes.hpp"
 #include "diagnosis/file/correction.hpp"
 
 namespace tunica::diagnosis {
@@ -27,7 +28,7 @@ std::vector<std::string> directions_of(const Record& record, const std::string& 
   return names.size() == 2 ? names : std::vector<std::string>();
 }
 
-void add(const std::string& id, const std::vector<std::string>& tests, bool common,
+void add(const Record& record, const std::string& id, const std::vector<std::string>& tests, bool common,
          const std::vector<std::string>& channels, Corrections& all) {
   Correction one{FileKind::calibration, tests, common, "", "", {}};
   for (const std::string& channel : channels) one.additions.push_back({id, {tests, channel}, {}});
@@ -37,18 +38,19 @@ void add(const std::string& id, const std::vector<std::string>& tests, bool comm
                                       : fmt::format("{{\"type\": \"{}\", \"channel\": \"{}\"}}", id, channel));
   one.mend = fmt::format("\"mechanisms\": [{}{}] into {}", written.front(),
                          written.size() > 1 ? ", " + written.back() : std::string(), quoted(tests));
+  for (const std::string& test : tests) add_mechanisms(record.test(test), written, one.changes);
   all.push_back(std::move(one));
 }
 
 /// Of a sheet each direction; where the mechanism takes both together, that too, and each with an amplitude of its own
 /// where it takes one alone.
-void add_directions(const MechanismFactory& mechanism, const std::vector<std::string>& tests, bool common,
-                    const std::vector<std::string>& directions, Corrections& all) {
-  for (const std::string& direction : directions) add(mechanism.id, tests, common, {direction}, all);
+void add_directions(const Record& record, const MechanismFactory& mechanism, const std::vector<std::string>& tests,
+                    bool common, const std::vector<std::string>& directions, Corrections& all) {
+  for (const std::string& direction : directions) add(record, mechanism.id, tests, common, {direction}, all);
   if (mechanism.by_channel)
-    add(mechanism.id, tests, common, directions, all);
+    add(record, mechanism.id, tests, common, directions, all);
   else
-    add(mechanism.id, tests, common, {""}, all);
+    add(record, mechanism.id, tests, common, {""}, all);
 }
 
 /// "axial " of "stress_axial"
@@ -81,9 +83,9 @@ void add_calibrations(const Record& record, const std::vector<std::string>& test
     }
     const auto add_in = [&](const std::vector<std::string>& in, bool common) {
       if (takes_channel(mechanism))
-        add_directions(mechanism, in, common, directions, all);
+        add_directions(record, mechanism, in, common, directions, all);
       else
-        add(id, in, common, {""}, all);
+        add(record, id, in, common, {""}, all);
     };
     if (fit_for.size() > 1) add_in(fit_for, true);
     if (of_the_rig) continue;

@@ -27,6 +27,7 @@ struct Correction {
   std::string ladder = {};
   double rung = 0;
   std::vector<Addition> additions = {};  ///< of one mechanism, in place of `apply`
+  std::vector<Change> changes = {};      ///< the mend for programs; empty: it is no matter of keys
 };
 
 using Corrections = std::vector<Correction>;
@@ -61,6 +62,7 @@ std::string calibration_words(const Correction& correction, const std::vector<Am
 /// One correction for each of the tests, and one for all where there are several.
 struct Wording {
   std::string sentence, mend;
+  std::vector<Change> changes = {};
 };
 void add_for_each_and_all(FileKind kind, const std::vector<std::string>& tests,
                           const std::function<Wording(const std::vector<std::string>&)>& words,

@@ -27,6 +27,7 @@ void add_for_each_and_all(FileKind kind, const std::vector<std::string>& tests,
                      return std::all_of(in.begin(), in.end(),
                                         [&](const std::string& test) { return apply(record, test); });
                    }});
+    all.back().changes = std::move(wording.changes);
   };
   if (tests.size() > 1) add(tests, true);
   for (const std::string& test : tests) add({test}, tests.size() == 1);
@@ -38,6 +39,15 @@ std::vector<std::string> fitted_tests(const Record& record, const experiment::Ru
     if (!record.test(name).hold_out.all) tests.push_back(name);
   return tests;
 }
+
+namespace {
+
+bool states_noise(const experiment::TestEntry& test) {
+  return std::any_of(test.data.noise.begin(), test.data.noise.end(),
+                     [](const auto& noise) { return noise.second.absolute != 0; });
+}
+
+}  // namespace
 
 Corrections corrections_of(const Inquiry& inquiry, const Record& record, const experiment::RunEntry& run,
                            bool scale_is_seen) {
@@ -60,6 +70,11 @@ Corrections corrections_of(const Inquiry& inquiry, const Record& record, const e
     kinds.insert(one.kind);
   }
   for (Correction& one : all) {
+    // A stated noise is that of the numbers, and would have to change with them.
+    if (one.kind == FileKind::unit && std::any_of(one.tests.begin(), one.tests.end(), [&](const std::string& test) {
+          return states_noise(inquiry.experiment.test(test));
+        }))
+      one.changes.clear();
     const double scopes = members.contains({one.kind, !one.common}) ? 2 : 1;
     one.log_prior = -std::log(static_cast<double>(kinds.size()) * scopes * members[{one.kind, one.common}]);
   }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "data/quantities.hpp"
+#include "diagnosis/file/changes.hpp"
 #include "diagnosis/file/correction.hpp"
 
 namespace tunica::diagnosis {
@@ -93,12 +94,16 @@ void add_exchanges(const Record& record, const std::vector<std::string>& tests, 
   add_for_each_and_all(
       FileKind::exchange, strips,
       [&](const std::vector<std::string>& in) -> Wording {
+        std::vector<Change> changes;
+        for (const std::string& test : in)
+          changes.push_back({pointer({"tests", test, "direction"}), json_text(*other_direction(record.test(test)))});
         return {in.size() == 1 ? fmt::format("'{}' was pulled along the {} direction", in.front(),
                                              *other_direction(record.test(in.front())))
                                : fmt::format("the directions of {} are exchanged", quoted(in)),
                 in.size() == 1 ? fmt::format("\"direction\": \"{}\" in '{}'", *other_direction(record.test(in.front())),
                                              in.front())
-                               : fmt::format("the other \"direction\" in each of {}", quoted(in))};
+                               : fmt::format("the other \"direction\" in each of {}", quoted(in)),
+                changes};
       },
       [](Record& read, const std::string& test) {
         const auto other = other_direction(read.test(test));

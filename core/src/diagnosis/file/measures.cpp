@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "data/quantities.hpp"
+#include "diagnosis/file/changes.hpp"
 #include "diagnosis/file/correction.hpp"
 
 namespace tunica::diagnosis {
@@ -118,9 +119,12 @@ void add_stress_measures(const Record& record, const std::vector<std::string>& t
     add_for_each_and_all(
         FileKind::stress_measure, others,
         [&](const std::vector<std::string>& in) -> Wording {
+          std::vector<Change> changes;
+          for (const std::string& test : in)
+            change_data(record.test(test), "stress_measure", json_text(measure.name), changes);
           return {fmt::format("the stresses of {} are {} stresses, not {} ones", quoted(in), measure.words,
                               words_of_measure(record.test(in.front()).data.stress_measure)),
-                  fmt::format("\"stress_measure\": \"{}\" in the data of {}", measure.name, quoted(in))};
+                  fmt::format("\"stress_measure\": \"{}\" in the data of {}", measure.name, quoted(in)), changes};
         },
         [&measure](Record& read, const std::string& test) { return read_as(read, test, measure.name); }, all);
   }

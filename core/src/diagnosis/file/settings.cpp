@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/memory.hpp"
+#include "diagnosis/file/changes.hpp"
 #include "diagnosis/file/correction.hpp"
 #include "plugins/guarded.hpp"
 
@@ -49,6 +50,8 @@ void add_angles(const Record& record, const experiment::RunEntry& run, const plu
                          if (setting != nullptr) setting->fixed = value;
                          return setting != nullptr;
                        }});
+        all.back().changes = {{pointer({"models", model.name, "parameters", parameter.name}),
+                               fmt::format("{{\"fixed\": {:.6g}}}", value)}};
       };
       add(quarter_turn - angle, "is counted from the other axis");
       add(angle * degrees_per_radian, "is in radians");

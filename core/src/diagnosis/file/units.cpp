@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "data/quantities.hpp"
+#include "diagnosis/file/changes.hpp"
 #include "diagnosis/file/correction.hpp"
 #include "text/lists.hpp"
 #include "tunica/error.hpp"
@@ -44,11 +45,15 @@ std::optional<std::string> unit_of_factor(const std::string& stated, double fact
   return std::nullopt;
 }
 
-std::string mending(const Record& record, const std::vector<std::string>& tests, const Numbers& numbers,
-                    double factor) {
-  const experiment::TestEntry& entry = record.test(tests.front());
-  std::vector<std::string> columns;
+/// The columns of a test that hold these numbers, and the unit that makes the factor out of the first one's.
+struct Columns {
+  std::vector<std::string> names;
   std::optional<std::string> unit;
+};
+
+Columns columns_of(const Record& record, const std::string& test, const Numbers& numbers, double factor) {
+  const experiment::TestEntry& entry = record.test(test);
+  Columns found;
   for (const auto& [name, column] : entry.data.columns) {
     const auto quantity = data::quantity_named(name, record.observables(entry.name));
     if (!quantity) continue;
@@ -56,17 +61,35 @@ std::string mending(const Record& record, const std::vector<std::string>& tests,
     if (observable != numbers.abscissa &&
         std::find(numbers.channels.begin(), numbers.channels.end(), observable) == numbers.channels.end())
       continue;
-    columns.push_back(column);
+    found.names.push_back(column);
     std::string stated = quantity->unit;
     for (const auto& [source, from] : record.data(entry.name).source_columns)
       if (source == observable && !from.second.empty()) stated = from.second;
     for (const auto& [named, own] : entry.data.layout.units)
       if (named == column) stated = own;
-    if (!unit) unit = unit_of_factor(stated, factor);
+    if (!found.unit) found.unit = unit_of_factor(stated, factor);
   }
-  const std::string where = fmt::format("{} of {}", quoted(columns), quoted(tests));
-  return unit ? fmt::format("the unit {} for {}, in its header or with \"units\"", *unit, where)
-              : fmt::format("{} times {:.6g}: in a unit, an area or a thickness", where, factor);
+  return found;
+}
+
+std::string mending(const Record& record, const std::vector<std::string>& tests, const Numbers& numbers,
+                    double factor) {
+  const Columns columns = columns_of(record, tests.front(), numbers, factor);
+  const std::string where = fmt::format("{} of {}", quoted(columns.names), quoted(tests));
+  return columns.unit ? fmt::format("the unit {} for {}, in its header or with \"units\"", *columns.unit, where)
+                      : fmt::format("{} times {:.6g}: in a unit, an area or a thickness", where, factor);
+}
+
+/// Another unit in each test; nothing where one of them has none that makes the factor.
+std::vector<Change> changes_of(const Record& record, const std::vector<std::string>& tests, const Numbers& numbers,
+                               double factor) {
+  std::vector<Change> changes;
+  for (const std::string& test : tests) {
+    const Columns columns = columns_of(record, test, numbers, factor);
+    if (!columns.unit) return {};
+    change_units(record.test(test), columns.names, *columns.unit, changes);
+  }
+  return changes;
 }
 
 std::string scaled_words(const std::vector<std::string>& tests, const Numbers& numbers, double factor) {
@@ -78,7 +101,7 @@ std::string scaled_words(const std::vector<std::string>& tests, const Numbers& n
 void add_ladder(const Record& record, const std::vector<std::string>& tests, bool common, const Numbers& numbers,
                 Corrections& all) {
   for (const double up : factors)
-    for (const double factor : {up, 1 / up})
+    for (const double factor : {up, 1 / up}) {
       all.push_back(
           {FileKind::unit, tests, common, scaled_words(tests, numbers, factor), mending(record, tests, numbers, factor),
            [tests, numbers, factor](Record& read) {
@@ -93,6 +116,8 @@ void add_ladder(const Record& record, const std::vector<std::string>& tests, boo
              return true;
            },
            0, fmt::format("{} of {}", numbers.name, text::joined(tests)), std::log(factor)});
+      all.back().changes = changes_of(record, tests, numbers, factor);
+    }
 }
 
 std::vector<std::string> channels_with_unit(const Record& record, const std::string& test, std::string_view unit) {

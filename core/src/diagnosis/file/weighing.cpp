@@ -80,6 +80,7 @@ FileCause cause_of(const CorrectedFit& corrected, double p_after, const plugins:
   const Correction& correction = *corrected.correction;
   FileCause cause{
       correction.kind, correction.tests, correction.sentence, correction.mend, corrected.fit.chi2, p_after, 0, false};
+  cause.changes = correction.changes;
   if (correction.additions.empty()) return cause;
   cause.mechanism = correction.additions.front().id;
   cause.amplitudes = corrected.amplitudes;

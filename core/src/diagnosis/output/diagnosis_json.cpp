@@ -213,6 +213,8 @@ json file_json(const FileFindings& file) {
                       {"p_after", cause.p_after},
                       {"probability", cause.probability},
                       {"near", cause.near}});
+    for (const Change& change : cause.changes)
+      causes.back()["changes"].push_back({{"op", "add"}, {"path", change.path}, {"value", json::parse(change.value)}});
     if (cause.mechanism.empty()) continue;
     causes.back()["mechanism"] = cause.mechanism;
     for (const Amplitude& amplitude : cause.amplitudes) causes.back()["amplitudes"].push_back(amplitude.value);
