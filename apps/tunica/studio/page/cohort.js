@@ -29,7 +29,13 @@ function specimensOf(document, rows, run) {
 const worst = (key) => (a, b) => (b[key] ?? Infinity) - (a[key] ?? Infinity) || a.id.localeCompare(b.id);
 const orders = { misfit: ["misfit over noise, worst first", worst("misfit")], rest: ["1 − R², worst first", worst("rest")], id: ["name", (a, b) => a.id.localeCompare(b.id, undefined, { numeric: true })] };
 
-function tile(one, folder, run) {
+/** Tests and channels of a run, of the first specimen that is asked for: all have the same ones. */
+function testsOf(run) {
+  let first = null;
+  return (folder) => (first ??= result(folder).then((document) => document.runs.find((entry) => entry.run === run)?.best?.per_test, (error) => { first = null; throw error; }));
+}
+
+function tile(one, folder, run, tests) {
   const place = el("div", { class: "tile-curve" }), own = `${folder}/${one.folder}`;
   const node = el("li", { class: "tile", id: `specimen-${one.id}` }, el("h3", {}, one.outcome === "fitted" ? el("a", { href: `#/sheet/${encodeURIComponent(own)}` }, one.id) : one.id), place,
     el("p", {}, one.misfit !== null ? [el("strong", {}, number(one.misfit, 3)), " times the noise"] : one.rest !== null ? `R² ${number(1 - one.rest, 4)}` : ""),
@@ -38,8 +44,7 @@ function tile(one, folder, run) {
     node.begin = null;
     if (one.outcome !== "fitted") return;
     try {
-      const document = await result(own), best = document.runs.find((entry) => entry.run === run)?.best;
-      put(place, ...(await curvesOf(own, run, best?.per_test, { small: true, height: 130 })).slice(0, 1));
+      put(place, (await curvesOf(own, run, await tests(own), { small: true, height: 130 }))[0]);
     } catch (error) {
       put(place, el("small", {}, error.message));
     }
@@ -68,7 +73,8 @@ export async function cohortPage(place, all, folder) {
   function made() {
     specimens = specimensOf(document, rows, run.value);
     inSight.disconnect();
-    tiles = new Map(specimens.map((one) => [one, tile(one, folder, run.value)]));
+    const tests = testsOf(run.value);
+    tiles = new Map(specimens.map((one) => [one, tile(one, folder, run.value, tests)]));
     tiles.forEach((node) => inSight.observe(node));
     const codes = new Map(specimens.flatMap((one) => one.tags).map(([code, words]) => [code, words])), chosen = filter.value;
     put(filter, el("option", { value: "" }, `all ${specimens.length}`), [...codes].map(([code, words]) =>
