@@ -57,6 +57,12 @@ def move_sliders(page):
     page.set("[data-parameter=mu]", "565")
     page.until("return document.querySelector('.tag')?.textContent === 'stable'")
     page.picture("material", 780)
+    whole = page.browser.run(line)
+    page.browser.run("document.querySelector('.chart').focus()")  # by keys alone
+    for key, zoomed in (("+", True), ("ArrowLeft", True), ("0", False)):
+        page.browser.key(key)
+        page.until("return document.querySelector('.chart').classList.contains('zoomed') === arguments[0]", zoomed)
+        page.until("return (document.querySelectorAll('.chart canvas')[1].toDataURL() !== arguments[0]) === arguments[1]", whole, zoomed)
     return frames
 
 
