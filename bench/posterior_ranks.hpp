@@ -14,6 +14,8 @@
 #include <unistd.h>
 
 #include "assembly/assembly.hpp"
+#include "assembly/curve_shapes.hpp"
+#include "assembly/unlisted_prior.hpp"
 #include "numerics/distributions.hpp"
 #include "posterior/counter_random.hpp"
 #include "posterior/posterior.hpp"
@@ -27,14 +29,12 @@ namespace tunica::bench {
 /// A run whose noise is stated and whose prior is uniform between bounds, so that both can be drawn from. The data of
 /// the file say where is measured, and nothing else.
 struct Prior {
-  /// `tests`: JSON with columns stretch and stress of "rows.csv", which has 40 stretches up to `to`.
-  Prior(const plugins::Catalogue& catalogue, const std::string& model, const std::string& tests, double to) {
+  /// `tests`: JSON with columns of "rows.csv", whose text is `table`.
+  Prior(const plugins::Catalogue& catalogue, const std::string& model, const std::string& tests,
+        const std::string& table) {
     std::string pattern = (std::filesystem::temp_directory_path() / "tunica-ranks-XXXXXX").string();
     const std::filesystem::path folder = mkdtemp(pattern.data());
-    std::ofstream rows(folder / "rows.csv");
-    rows << "stretch [1],stress [kPa]\n";
-    for (int i = 1; i <= 40; ++i) rows << fmt::format("{},{}\n", 1 + (to - 1) * i / 40, 1 + i);
-    rows.close();
+    std::ofstream(folder / "rows.csv") << table;
     std::ofstream(folder / "experiment.json") << fmt::format(
         R"({{"format": 1, "models": {{"m": {}}}, "tests": {}, "objective": "least_squares",
           "optimizers": {{"lm": {{"type": "ceres_lm"}}}}, "runs": [{{"model": "m", "optimizer": "lm"}}]}})",
@@ -47,6 +47,13 @@ struct Prior {
   experiment::Experiment experiment;
   std::unique_ptr<assembly::Assembly> assembly;
 };
+
+/// 40 stretches up to `to`.
+inline std::string stretches(double to) {
+  std::string table = "stretch [1],stress [kPa]\n";
+  for (int i = 1; i <= 40; ++i) table += fmt::format("{},{}\n", 1 + (to - 1) * i / 40, 1 + i);
+  return table;
+}
 
 inline std::string test_of(const std::string& name, const std::string& type, double noise) {
   return fmt::format(
@@ -63,7 +70,7 @@ inline Prior gho_strips(const plugins::Catalogue& catalogue) {
               "k2": {"min": 0.1, "max": 0.9}, "kappa": {"max": 0.3}, "theta": {"min": 40, "max": 55}}})",
           fmt::format("{{{}, {}}}", test_of("circ", R"("type": "uniaxial", "direction": "circumferential")", noise),
                       test_of("axial", R"("type": "uniaxial", "direction": "axial")", noise)),
-          1.4};
+          stretches(1.4)};
 }
 
 /// Two terms of Ogden's rubber, in tension along one axis and two; their exponents keep the terms apart.
@@ -75,7 +82,21 @@ inline Prior ogden_rubber(const plugins::Catalogue& catalogue) {
               "alpha_2": {"min": 3, "max": 6}}})",
           fmt::format("{{{}, {}}}", test_of("one", R"("type": "uniaxial", "direction": "circumferential")", noise),
                       test_of("two", R"("type": "biaxial", "protocol": "equibiaxial")", noise)),
-          5};
+          stretches(5)};
+}
+
+/// A long tube of hgo, whose diameter and axial force are measured at 20 pressures up to 16 kPa.
+inline Prior hgo_tube(const plugins::Catalogue& catalogue) {
+  std::string table = "pressure [kPa],diameter [1],force [mN]\n";
+  for (int i = 1; i <= 20; ++i) table += fmt::format("{},{},{}\n", 0.8 * i, 1 + 0.02 * i, 700 + i);
+  return {catalogue,
+          R"({"type": "hgo", "parameters": {"mu": {"min": 10, "max": 40}, "k1": {"min": 10, "max": 50},
+              "k2": {"min": 0.1, "max": 1}, "theta": {"min": 40, "max": 55}}})",
+          R"({"tube": {"type": "thick_wall_pressurisation", "inner_radius": "3.71 mm", "thickness": "2.06 mm",
+              "axial_stretch": 1.2, "data": {"file": "rows.csv", "columns": {"pressure": "pressure",
+              "outer_diameter_stretch": "diameter", "axial_force": "force"},
+              "noise": {"outer_diameter_stretch": {"absolute": 0.01}, "axial_force": {"absolute": "20 mN"}}}}})",
+          table};
 }
 
 /// Ranks of the truth in 0 … `draws_of_rank`, and how often bands of measurements hold a row that was never fitted.
@@ -102,8 +123,37 @@ struct Ranks {
   }
 };
 
-/// Of `draws` from the posterior of each data set.
-inline Ranks ranks(const Prior& prior, std::size_t sets, std::size_t draws, std::uint64_t seed) {
+/// A misfit of the prior of discrepancy.hpp, added to predictions: none with probability ½.
+inline void add_misfit(const assembly::Assembly& assembly, posterior::CounterRandom& random,
+                       std::vector<double>& predictions) {
+  namespace unlisted = assembly::unlisted;
+  double all = 0, share = 2 * random.uniform() - 1;
+  for (const double size : unlisted::sizes) all += std::exp(unlisted::log_weight(size));
+  if (share < 0) return;
+  double tau = unlisted::sizes.back();
+  for (const double size : unlisted::sizes)
+    if ((share -= std::exp(unlisted::log_weight(size)) / all) < 0) {
+      tau = size;
+      break;
+    }
+  const auto roughness = static_cast<int>(unlisted::roughness_kinds * random.uniform());
+  for (const auto& view : assembly.layout().channels) {
+    const auto shapes = assembly::curve_shapes(view.abscissa, 14);
+    const auto first = predictions.begin() + static_cast<std::ptrdiff_t>(view.offset);
+    const auto [low, high] = std::minmax_element(first, first + static_cast<std::ptrdiff_t>(view.count));
+    const double range = *high - *low;
+    for (Eigen::Index k = 0; k < shapes.columns.cols(); ++k) {
+      const double variance = unlisted::variance(roughness, shapes.degree[static_cast<std::size_t>(k)]);
+      const double height = tau * range * std::sqrt(variance) * random.normal();
+      for (std::size_t i = 0; i < view.count; ++i)
+        first[static_cast<std::ptrdiff_t>(i)] += height * shapes.columns(static_cast<Eigen::Index>(i), k);
+    }
+  }
+}
+
+/// Of `draws` from the posterior of each data set. `discrepancy`: data and posterior have one.
+inline Ranks ranks(const Prior& prior, std::size_t sets, std::size_t draws, std::uint64_t seed,
+                   bool discrepancy = false) {
   const assembly::Assembly& assembly = *prior.assembly;
   const std::size_t n = assembly.layout().parameters.size();
   Ranks found;
@@ -121,13 +171,14 @@ inline Ranks ranks(const Prior& prior, std::size_t sets, std::size_t draws, std:
     assembly.box().from_unit(unit, truth);
     const auto workspace = assembly.evaluator().make_workspace();
     if (!assembly.evaluator().predict(truth, measured, {}, *workspace).ok()) throw std::runtime_error("no prediction");
+    if (discrepancy) add_misfit(assembly, random, measured);
     std::vector<double> again = measured;  // measured once more, and shown to nobody
     for (std::size_t i = 0; i < sd.size(); ++i) {
       measured[i] += sd[i] * random.normal();
       again[i] += sd[i] * random.normal();
     }
-    const auto made =
-        posterior::sample(assembly, truth, draws, derive_seed(seed, fmt::format("chains {}", k)), {}, measured);
+    const auto made = posterior::sample(assembly, truth, draws, derive_seed(seed, fmt::format("chains {}", k)), {},
+                                        measured, discrepancy);
     if (!made.complete) throw std::runtime_error(made.status.reason());
     judged[k] = made.converged() ? 1 : 0;
     const std::size_t each = made.chains.front().draws();

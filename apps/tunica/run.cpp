@@ -66,11 +66,12 @@ std::string command(const GlobalOptions& global, const RunOptions& options, cons
                     const std::vector<std::string>& how) {
   std::vector<std::string> words{"tunica", "run", options.file, "-o", directory.string()};
   words.insert(words.end(), how.begin(), how.end());
-  const auto& [seed, profiles, draws, posterior, kept, paired] = options.overrides;
+  const auto& [seed, profiles, draws, posterior, kept, paired, discrepancy] = options.overrides;
   if (seed) words.insert(words.end(), {"--seed", fmt::format("{}", *seed)});
   if (!profiles.empty()) words.insert(words.end(), {"--profiles", fmt::format("{}", fmt::join(profiles, ","))});
   if (draws) words.insert(words.end(), {"--bootstrap", fmt::format("{}", *draws)});
   if (posterior) words.push_back(fmt::format("--posterior={}", *posterior));
+  if (discrepancy) words.emplace_back("--discrepancy");
   if (!kept.empty()) words.insert(words.end(), {"--keep-evaluations", kept});
   if (paired) words.emplace_back("--paired-starts");
   if (!options.certificate) words.emplace_back("--no-certificate");
@@ -272,6 +273,8 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
                                                         : static_cast<std::uint64_t>(std::max(draws, std::int64_t{0}));
       },
       "Draw from the posterior of the parameters, 4000 times; --posterior=20000 for another number");
+  verb->add_flag("--discrepancy", options->overrides.discrepancy,
+                 "Let the posterior allow for a smooth misfit of unknown size that the model does not explain");
   verb->add_option("--keep-evaluations", options->overrides.keep_evaluations,
                    "Rows of evaluations.csv once the results are written: all, or improvements of the best point only")
       ->type_name("all|improvements");

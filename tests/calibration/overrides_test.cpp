@@ -82,6 +82,18 @@ TEST(Overrides, AskForAsManyDrawsFromThePosteriorAsTheFileCould) {
   EXPECT_EQ(experiment.analysis.posterior_draws, 1000000u) << "a refused number changes nothing";
 }
 
+TEST(Overrides, AskForADiscrepancyOfThePosterior) {
+  auto experiment = stated_experiment();
+  calibration::apply({.posterior_draws = 800, .discrepancy = true}, experiment);
+  EXPECT_TRUE(experiment.analysis.discrepancy);
+  EXPECT_EQ(experiment.analysis.posterior_draws, 800u);
+  auto alone = stated_experiment();
+  alone.analysis.posterior_draws = 0;
+  calibration::apply({.discrepancy = true}, alone);
+  EXPECT_EQ(alone.analysis.posterior_draws, 4000u) << "as many as --posterior draws";
+  EXPECT_TRUE(nlohmann::json::parse(alone.input_json)["analysis"]["posterior"]["discrepancy"]);
+}
+
 TEST(Overrides, AskForABootstrapOfAsManyDrawsAsTheFileCould) {
   auto experiment = stated_experiment();
   for (const std::uint64_t draws : {std::uint64_t{40}, std::uint64_t{200}, std::uint64_t{1000000}}) {

@@ -52,6 +52,14 @@ TEST_F(AnalysisBlock, AsksForDrawsFromThePosterior) {
   EXPECT_EQ(read(e.input_json).input_json, e.input_json);
 }
 
+TEST_F(AnalysisBlock, AsksForADiscrepancyBesideTheModel) {
+  const Experiment e = read(block(R"({"posterior": {"draws": 4000, "discrepancy": true}})"));
+  EXPECT_TRUE(e.analysis.discrepancy);
+  EXPECT_EQ(nlohmann::json::parse(e.input_json)["analysis"]["posterior"]["discrepancy"], true);
+  EXPECT_EQ(read(e.input_json).input_json, e.input_json);
+  EXPECT_FALSE(read(block(R"({"posterior": {"draws": 4000, "discrepancy": false}})")).analysis.discrepancy);
+}
+
 TEST_F(AnalysisBlock, IsRefusedWithAReason) {
   const auto refused = [&](const char* text) { return refusal(block(text)); };
   expect_within(refused(R"({"profile": "all"})"), "unknown key 'profile' in \"analysis\" (/analysis/profile");
@@ -60,6 +68,7 @@ TEST_F(AnalysisBlock, IsRefusedWithAReason) {
   expect_within(refused(R"({"bootstrap": 200})"), "an object, {\"draws\": 200},");
   expect_within(refused(R"({"bootstrap": {"draws": 5}})"), "a whole number of draws from 40");
   expect_within(refused(R"({"posterior": true})"), "an object, {\"draws\": 4000},");
+  expect_within(refused(R"({"posterior": {"draws": 400, "discrepancy": 1}})"), "true or false");
   expect_within(refused(R"({"posterior": {"draws": 399}})"), "a whole number of draws from 400");
   expect_within(refused(R"({"optimizer": "lmm"})"), "unknown optimizer 'lmm' (/analysis/optimizer");
   expect_within(refused(R"({"optimizer": "hybrid"})"), "the optimizer 'hybrid' has stages (/analysis/optimizer");

@@ -129,6 +129,49 @@ TEST(Posterior, HoldsHeldOutRowsInTheBandOfMeasurements) {
   }
 }
 
+// The same with a discrepancy that is not there, for stated noise.
+TEST(Posterior, HoldsHeldOutRowsBesideADiscrepancyThatIsNotThere) {
+  posterior::CounterRandom random(5);
+  std::size_t rows = 0, inside = 0;
+  for (int set = 0; set < 10; ++set) {
+    trial::Line line(fakes::grid(0, 7, 200), [&](std::size_t) { return 0.1 * random.normal(); });
+    state_noise(line, 0.1);
+    line.experiment.tests.front().hold_out.rows = {0, {}, 2};
+    const auto made = sample(line.assemble(), std::vector{1.0, 2.0}, 800, 1, {}, {}, true);
+    ASSERT_TRUE(made.complete) << made.status.reason();
+    ASSERT_TRUE(made.bands.misfit);
+    rows += made.bands.held_out.rows;
+    inside += made.bands.held_out.inside;
+  }
+  EXPECT_EQ(rows, 1000u);
+  EXPECT_GE(inside, 930u);
+  EXPECT_LE(inside, 970u);
+  RecordProperty("inside", static_cast<int>(inside));
+}
+
+// A line through a bend of three times the noise: without a discrepancy the interval of the slope is too short by far,
+// and the band too narrow in the middle or too wide elsewhere.
+TEST(Posterior, HoldsHeldOutRowsOfACurveThatTheModelMisses) {
+  posterior::CounterRandom random(5);
+  trial::Line line(fakes::grid(0, 7, 200),
+                   [&](std::size_t i) { return 0.1 * random.normal() + 0.3 * std::cos(static_cast<double>(i) / 25); });
+  state_noise(line, 0.1);
+  line.experiment.tests.front().hold_out.rows = {0, {}, 2};
+  const auto assembly = line.assemble();
+  const auto without = sample(assembly, std::vector{1.0, 2.0}, 2000, 1),
+             with = sample(assembly, std::vector{1.0, 2.0}, 2000, 1, {}, {}, true);
+  ASSERT_TRUE(without.complete && with.complete);
+  EXPECT_GE(with.bands.held_out.inside, 90u) << "of 100: 90 or more with probability 0.989";
+  EXPECT_GT(with.bands.misfit->lower, 0);
+  EXPECT_GT(with.parameters[1].sd, 2 * without.parameters[1].sd);
+  double narrow = 0, wide = 0;
+  for (std::size_t i = 0; i < 200; ++i) {
+    narrow += with.bands.highest_measured[i] - with.bands.lowest_measured[i];
+    wide += without.bands.highest_measured[i] - without.bands.lowest_measured[i];
+  }
+  EXPECT_LT(narrow, 0.8 * wide) << "the misfit is known where rows stand beside it";
+}
+
 TEST(Posterior, IsTheSameForAnyNumberOfThreads) {
   const trial::Line line;
   const auto assembly = line.assemble();
@@ -180,6 +223,17 @@ TEST(Posterior, RanksTheTruthOfGhoUniformly) {
 }
 TEST(Posterior, RanksTheTruthOfOgdensRubberUniformly) {
   const auto found = bench::ranks(bench::ogden_rubber(tunica::testing::catalogue()), 20, 400, 20240817);
+  for (std::size_t j = 0; j < found.names.size(); ++j) EXPECT_GT(found.chance(j, 5), 1e-4) << found.names[j];
+  EXPECT_NEAR(static_cast<double>(found.inside) / static_cast<double>(found.new_rows), 0.95, 0.02);
+}
+TEST(Posterior, RanksTheTruthOfATubeUniformly) {
+  const auto found = bench::ranks(bench::hgo_tube(tunica::testing::catalogue()), 20, 400, 20240817);
+  for (std::size_t j = 0; j < found.names.size(); ++j) EXPECT_GT(found.chance(j, 5), 1e-4) << found.names[j];
+  EXPECT_NEAR(static_cast<double>(found.inside) / static_cast<double>(found.new_rows), 0.95, 0.02);
+}
+// Data with a misfit of the prior, and a posterior that allows for one.
+TEST(Posterior, RanksTheTruthUniformlyBesideADiscrepancy) {
+  const auto found = bench::ranks(bench::ogden_rubber(tunica::testing::catalogue()), 20, 400, 20240817, true);
   for (std::size_t j = 0; j < found.names.size(); ++j) EXPECT_GT(found.chance(j, 5), 1e-4) << found.names[j];
   EXPECT_NEAR(static_cast<double>(found.inside) / static_cast<double>(found.new_rows), 0.95, 0.02);
 }

@@ -14,15 +14,17 @@ using posterior::Target;
 namespace {
 
 /// ln p and its gradient against central differences, at a place away from the centre.
-void expect_exact_gradient(const trial::Line& line, bool factor_known) {
+void expect_exact_gradient(const trial::Line& line, bool factor_known, bool discrepancy = false) {
   const auto assembly = line.assemble();
   Status status;
-  const auto question = posterior::question_at(assembly, std::vector{1.0, 2.0}, {}, status);
+  const auto question = posterior::question_at(assembly, std::vector{1.0, 2.0}, {}, status, discrepancy);
   ASSERT_TRUE(question) << status.reason();
   EXPECT_EQ(question->factor_known, factor_known);
-  Target target(*question, 1.3);
   const Eigen::Vector2d z(-1.1, 0.4);
   Point here, ahead, behind;
+  Target plain(*question, 1.3);
+  ASSERT_TRUE(plain.evaluate(z, here));
+  Target target(*question, discrepancy ? plain.metric_at(here) : Target::Metric{1.3, {}});
   ASSERT_TRUE(target.evaluate(z, here));
   constexpr double step = 1e-5;
   for (Eigen::Index j = 0; j < 2; ++j) {
@@ -46,6 +48,14 @@ TEST(PosteriorTarget, HasExactDerivativesWhereNoiseIsStated) {
 
 TEST(PosteriorTarget, HasExactDerivativesWhereTheFactorOfTheNoiseIsUnknown) {
   expect_exact_gradient(trial::Line(), false);
+}
+
+TEST(PosteriorTarget, HasExactDerivativesBesideADiscrepancy) {
+  trial::Line line(30);
+  expect_exact_gradient(line, false, true);
+  line.experiment.tests.front().data.noise = {{"y", {0.1}}};
+  line.parameter("b").prior = experiment::Prior{2.1, 0.2};
+  expect_exact_gradient(line, true, true);
 }
 
 // ln p is −½ ‖H‖² + const where all noise is stated and priors are on a linear scale.

@@ -54,6 +54,9 @@ class CommandLine(Case):
         low, high = run.parameters["c10"].about["posterior_ci95"]
         self.assertAlmostEqual(((draws >= low) & (draws <= high)).mean(), 0.95, delta=0.001)
         self.assertIsNone(tunica.run(path, self.folder / "c", certificate=False).posterior)
+        beside = tunica.run(path, self.folder / "d", posterior=800, discrepancy=True, certificate=False).best
+        self.assertEqual(beside.best["posterior"]["draws"], 800)
+        self.assertIn("discrepancy", beside.best["posterior"])
 
     def test_paired_starts_are_those_of_the_program(self):
         experiment = of_treloar({"type": "yeoh"})

@@ -51,11 +51,11 @@ calibration::Certified ask(const py::object& certify, const std::filesystem::pat
 py::dict run(const Loaded& loaded, const Folder& directory, bool resume, unsigned threads,
              const std::optional<std::uint64_t>& seed, const std::vector<std::string>& profiles,
              const std::optional<std::uint64_t>& bootstrap, const std::optional<std::uint64_t>& posterior,
-             bool paired_starts, const py::object& progress, const py::object& certify) {
+             bool discrepancy, bool paired_starts, const py::object& progress, const py::object& certify) {
   const OneAtATime alone;
   Told told(progress);
   experiment::Experiment experiment = loaded.experiment;
-  calibration::apply({seed, profiles, bootstrap, posterior, {}, paired_starts}, experiment);
+  calibration::apply({seed, profiles, bootstrap, posterior, {}, paired_starts, discrepancy}, experiment);
   calibration::Options options;
   if (directory) options.directory = *directory;
   options.resume = resume;

@@ -756,8 +756,20 @@ class BestPosterior(TypedDict):
     #: All noise is stated, and χ² does not contradict it; if not, one common factor of it is unknown, and integrated
     #: out.
     noise_known: bool
+    #: The smooth misfit beside the model that the posterior allows for. Only with --discrepancy.
+    discrepancy: NotRequired[BestPosteriorDiscrepancy]
     #: Held-out rows whose noise is known, and the 95 % band of measurements.
     held_out: BestPosteriorHeldOut
+
+
+class BestPosteriorDiscrepancy(TypedDict):
+    """The smooth misfit beside the model that the posterior allows for. Only with --discrepancy."""
+    #: 2.5 and 97.5 % of its size, as a share of the range of a channel.
+    ci95: list[float] | None
+    #: 50 % of its size.
+    median: float
+    #: Probability that there is none.
+    none: float
 
 
 class BestPosteriorHeldOut(TypedDict):

@@ -88,13 +88,14 @@ def _draws(posterior):
 
 
 def run(experiment, directory=None, *, base=None, threads=None, seed=None, profiles=(), bootstrap=None,
-        posterior=None, paired_starts=False, resume=False, certificate=True, progress=None):
+        posterior=None, discrepancy=False, paired_starts=False, resume=False, certificate=True, progress=None):
     """Calibrates every entry of "runs" and compares them, as `tunica run` does; returns a Result.
 
     experiment: the path of a file, a dictionary, or an Experiment. directory: a new folder for the results; without
     it results/<name>-<n>. threads: all of the machine unless given; results do not depend on it. progress: True for a
     line on stderr, or a function that is called with the share that is done and a line of text.
     posterior: how often to draw from the posterior of every run, or True for 4000 times: Run.posterior has the draws.
+    discrepancy: let the posterior allow for a smooth misfit of unknown size; 4000 draws unless `posterior` says more.
     paired_starts: runs of the same parameters and bounds begin at the same points, as the key of that name says.
 
     Ctrl-C raises Interrupted. Everything so far is saved, and the same call with its `directory` and resume=True goes
@@ -105,8 +106,8 @@ def run(experiment, directory=None, *, base=None, threads=None, seed=None, profi
     names = ["all"] if profiles == "all" else texts(profiles, "profiles")
     with listening(progress) as listener:
         found = _core.run(found_experiment._loaded, path(directory, "directory"), resume,
-                          thread_count(threads), seed, names, bootstrap, _draws(posterior), bool(paired_starts), listener,
-                          _certify if certificate else None)
+                          thread_count(threads), seed, names, bootstrap, _draws(posterior), bool(discrepancy),
+                          bool(paired_starts), listener, _certify if certificate else None)
     if found["ending"] == "interrupted":
         raise Interrupted(f"interrupted; everything so far is saved. Go on with "
                           f"run(…, directory={found['directory']!r}, resume=True)", found["directory"])

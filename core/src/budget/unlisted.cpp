@@ -2,27 +2,17 @@
 #include "budget/unlisted.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "assembly/unlisted_prior.hpp"
 #include "diagnosis/evidence/misfit_size.hpp"
 #include "diagnosis/evidence/projection.hpp"
 #include "diagnosis/evidence/smooth_columns.hpp"
 #include "diagnosis/naming/singles.hpp"
 
 namespace tunica::budget {
-namespace {
 
-constexpr std::array sizes{0.0025, 0.005, 0.01, 0.02, 0.04, 0.08, 0.16, 0.32};
-/// No model follows real curves better than 1–3 % of their range; a misfit of ten times as much has a cause.
-constexpr double usual_size = 0.02, spread = 0.7;  ///< spread: of ln τ
-
-double variance(int roughness, double degree) {
-  if (roughness == 0) return std::pow(1 + degree, -2);
-  return roughness == 1 ? std::pow(1 + degree, -4) : std::exp(-1.5 * degree);
-}
-
-}  // namespace
+namespace unlisted = assembly::unlisted;
 
 UnlistedMisfit::UnlistedMisfit(const diagnosis::Evidence& evidence, unsigned degree, double noise) : noise_(noise) {
   const Eigen::Index rows = evidence.fit.residuals.size();
@@ -33,17 +23,17 @@ UnlistedMisfit::UnlistedMisfit(const diagnosis::Evidence& evidence, unsigned deg
   basis_ = diagnosis::basis(columns_, 1e-8);
   const Eigen::MatrixXd squares = columns_.transpose() * columns_;
   std::vector<double> logs;
-  for (const double tau : sizes)
-    for (int roughness = 0; roughness < 3; ++roughness) {
+  for (const double tau : unlisted::sizes)
+    for (int roughness = 0; roughness < unlisted::roughness_kinds; ++roughness) {
       Prior prior;
       prior.scale.resize(columns_.cols());
       for (Eigen::Index k = 0; k < columns_.cols(); ++k)
-        prior.scale[k] = tau * std::sqrt(variance(roughness, shapes.degree[static_cast<std::size_t>(k)]));
+        prior.scale[k] = tau * std::sqrt(unlisted::variance(roughness, shapes.degree[static_cast<std::size_t>(k)]));
       Eigen::MatrixXd inner = prior.scale.asDiagonal() * squares * prior.scale.asDiagonal();
       inner.diagonal().array() += 1;
       prior.factor.compute(inner);
       prior.log_determinant = 2 * prior.factor.matrixLLT().diagonal().array().log().sum();
-      prior.log_weight = -0.5 * std::pow(std::log(tau / usual_size) / spread, 2);
+      prior.log_weight = unlisted::log_weight(tau);
       logs.push_back(prior.log_weight);
       priors_.push_back(std::move(prior));
     }

@@ -14,7 +14,7 @@ namespace tunica::budget {
 ///
 ///   r ~ N(0, Σ),  Σ = I + τ² B D Bᵀ,
 ///
-/// B smooth shapes of each curve (evidence/smooth_columns.hpp), whitened and as high as the range of its channel; τ the
+/// B smooth shapes of each curve (assembly/curve_shapes.hpp), whitened and as high as the range of its channel; τ the
 /// size as a share of the range; D_k the roughness, (1 + k)⁻², (1 + k)⁻⁴ or exp(−1.5 k) for degree k. Size and
 /// roughness are summed over and not estimated: with estimates, ranks go by roughness. ln τ is Gaussian about ln 0.02
 /// with standard deviation 0.7, because no model of a tissue follows real curves better than 1–3 %.

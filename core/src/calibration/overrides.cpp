@@ -13,7 +13,7 @@ namespace tunica::calibration {
 
 void apply(const Overrides& overrides, experiment::Experiment& experiment) {
   if (!overrides.seed && overrides.profiles.empty() && !overrides.bootstrap_draws && !overrides.posterior_draws &&
-      overrides.keep_evaluations.empty() && !overrides.paired_starts)
+      overrides.keep_evaluations.empty() && !overrides.paired_starts && !overrides.discrepancy)
     return;
   auto input = nlohmann::ordered_json::parse(experiment.input_json);
   auto& analysis = experiment.analysis;
@@ -43,6 +43,11 @@ void apply(const Overrides& overrides, experiment::Experiment& experiment) {
                                    *overrides.posterior_draws, least_posterior_draws, draws));
     analysis.posterior_draws = *overrides.posterior_draws;
     input["analysis"]["posterior"]["draws"] = *overrides.posterior_draws;
+  }
+  if (overrides.discrepancy) {
+    if (analysis.posterior_draws == 0)
+      input["analysis"]["posterior"]["draws"] = analysis.posterior_draws = experiment::limits::usual_posterior_draws;
+    input["analysis"]["posterior"]["discrepancy"] = analysis.discrepancy = true;
   }
   if (!overrides.keep_evaluations.empty()) {
     const auto kept = text::value_of(experiment::kept_evaluations_names, overrides.keep_evaluations);

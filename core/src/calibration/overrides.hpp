@@ -18,6 +18,7 @@ struct Overrides {
   std::optional<std::uint64_t> posterior_draws = {};
   std::string keep_evaluations = {};  ///< "all" or "improvements"; empty = as the file says
   bool paired_starts = false;         ///< as the key of that name; false = as the file says
+  bool discrepancy = false;  ///< of the posterior, which is drawn if nothing else asks for it; false = as the file says
 };
 
 /// Changes the experiment, and the input.json that documents it.

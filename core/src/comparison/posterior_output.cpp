@@ -107,6 +107,8 @@ void add_posterior(const assembly::Assembly& assembly, const Posterior& made, Ru
   found.factor_known = made.factor_known;
   found.held_out_rows = made.bands.held_out.rows;
   found.held_out_inside = made.bands.held_out.inside;
+  if (const auto& misfit = made.bands.misfit)
+    found.discrepancy = {misfit->lower, misfit->median, misfit->upper, misfit->none};
   summary.posterior = found;
   for (std::size_t j = 0; j < made.parameters.size(); ++j) {
     const auto& one = made.parameters[j];
@@ -126,6 +128,11 @@ void add_posterior(const assembly::Assembly& assembly, const Posterior& made, Ru
   summary.measured_upper = made.bands.highest_measured;
   warn_of_short_chains(made, summary, warnings);
   warn_of_disagreement(made, summary, warnings);
+  if (const auto& misfit = found.discrepancy)
+    say(summary,
+        fmt::format("the posterior allows for a smooth misfit beside the model: its size is {:.2g} % of the range of a "
+                    "channel ({:.2g} … {:.2g} %), and there is none with a probability of {:.2g}",
+                    100 * misfit->median, 100 * misfit->lower, 100 * misfit->upper, misfit->none));
   if (!made.factor_known)
     say(summary,
         "the posterior takes one common factor of all noise for unknown, as the linearised intervals do: "

@@ -169,18 +169,22 @@ json posterior_of(const PosteriorMarginal& found) {
 }
 
 json posterior_of(const PosteriorSummary& found) {
-  return {{"file", found.file},
-          {"chains", found.chains},
-          {"draws", found.draws},
-          {"warm_up", found.warm_up},
-          {"simulations", found.evaluations},
-          {"failed", found.failures},
-          {"acceptance", found.acceptance},
-          {"r_hat", found.r_hat},
-          {"ess", found.effective_size},
-          {"converged", found.converged},
-          {"noise_known", found.factor_known},
-          {"held_out", {{"rows", found.held_out_rows}, {"inside", found.held_out_inside}}}};
+  json made{{"file", found.file},
+            {"chains", found.chains},
+            {"draws", found.draws},
+            {"warm_up", found.warm_up},
+            {"simulations", found.evaluations},
+            {"failed", found.failures},
+            {"acceptance", found.acceptance},
+            {"r_hat", found.r_hat},
+            {"ess", found.effective_size},
+            {"converged", found.converged},
+            {"noise_known", found.factor_known},
+            {"held_out", {{"rows", found.held_out_rows}, {"inside", found.held_out_inside}}}};
+  if (const auto& misfit = found.discrepancy)
+    made["discrepancy"] = {
+        {"ci95", {misfit->lower, misfit->upper}}, {"median", misfit->median}, {"none", misfit->none}};
+  return made;
 }
 
 json best(const RunSummary& run) {

@@ -44,6 +44,12 @@ struct PosteriorSummary {
   double r_hat = 0, effective_size = 0;  ///< the worst of all parameters
   bool converged = false, factor_known = true;
   std::size_t held_out_rows = 0, held_out_inside = 0;  ///< of the band of measurements
+  /// A smooth misfit that the posterior allows for, as a share of the range of a channel.
+  struct Discrepancy {
+    double lower = 0, median = 0, upper = 0;  ///< 2.5, 50 and 97.5 %
+    double none = 0;                          ///< probability that there is none
+  };
+  std::optional<Discrepancy> discrepancy;
 };
 
 /// One parameter at the best point of a run.

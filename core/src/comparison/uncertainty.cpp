@@ -173,7 +173,8 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
     }
     if (analysis.posterior_draws > 0) {
       if (told) told("posterior of " + own.label);
-      const auto made = posterior::sample(assembly, best, analysis.posterior_draws, seed, interrupted);
+      const auto made =
+          posterior::sample(assembly, best, analysis.posterior_draws, seed, interrupted, {}, analysis.discrepancy);
       if (!made.status.ok()) {
         own.uncertainty.push_back("no posterior: " + made.status.reason());
       } else if (!made.complete) {

@@ -199,6 +199,7 @@ struct Analysis {
   std::vector<std::string> profiles;  ///< parameters as results name them; checked where the run is planned
   std::uint64_t bootstrap_draws = 0;  ///< 0 = no bootstrap
   std::uint64_t posterior_draws = 0;  ///< of all chains together; 0 = none
+  bool discrepancy = false;           ///< the posterior allows for a smooth misfit
   std::string optimizer;              ///< an entry of "optimizers"; empty = ceres_lm from the best point
   std::optional<double>
       stability_to;  ///< judge ellipticity and Drucker to this stretch instead of the largest measured

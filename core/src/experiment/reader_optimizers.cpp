@@ -129,9 +129,11 @@ void read_analysis(const Node& node, Experiment& experiment) {
   }
   if (const auto posterior = node.find("posterior")) {
     posterior->expect_object("an object, {\"draws\": 4000},");
-    posterior->allow_only({"draws"}, "\"posterior\"");
+    posterior->allow_only({"draws", "discrepancy"}, "\"posterior\"");
     analysis.posterior_draws = posterior->require("draws", "\"posterior\"")
                                    .count("a whole number of draws", limits::least_posterior_draws, limits::draws);
+    if (const auto discrepancy = posterior->find("discrepancy"))
+      analysis.discrepancy = discrepancy->flag("true or false");
   }
   if (const auto optimizer = node.find("optimizer")) {
     analysis.optimizer = optimizer->one_of(entry_names(experiment.optimizers), "optimizer");

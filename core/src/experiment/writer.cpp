@@ -267,6 +267,7 @@ Json to_json(const Analysis& analysis) {
     json["profiles"] = analysis.profiles;
   if (analysis.bootstrap_draws > 0) json["bootstrap"] = {{"draws", analysis.bootstrap_draws}};
   if (analysis.posterior_draws > 0) json["posterior"] = {{"draws", analysis.posterior_draws}};
+  if (analysis.discrepancy) json["posterior"]["discrepancy"] = true;
   if (!analysis.optimizer.empty()) json["optimizer"] = analysis.optimizer;
   if (analysis.stability_to) json["stability"]["to"] = *analysis.stability_to;
   if (!analysis.stability_map.empty()) {

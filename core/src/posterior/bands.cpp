@@ -61,7 +61,31 @@ std::vector<double> deviations(const Question& question) {
 struct Curve {
   std::vector<double> predictions;  ///< empty: could not be simulated
   double factor = 1;                ///< s
+  std::optional<Discrepancy::Misfit> misfit = {};
 };
+
+/// s of a draw, or what its discrepancy is.
+void add_errors(const Question& question, std::span<const double> free, CounterRandom random, Curve& curve) {
+  if (question.factor_known && !question.discrepancy) return;
+  std::vector<double> residuals(question.whitening.count());
+  assembly::whitened_residuals(question.whitening, free, curve.predictions, {}, residuals, {});
+  const Eigen::Map<const Eigen::VectorXd> r(residuals.data(),
+                                            static_cast<Eigen::Index>(question.whitening.rows.size()));
+  if (question.discrepancy) {
+    curve.misfit = question.discrepancy->draw(r, random);
+    curve.factor = curve.misfit->factor;
+  } else {
+    curve.factor = std::sqrt(r.squaredNorm() / numerics::chi_squared_quantile(random.uniform(), question.rows()));
+  }
+}
+
+Bands::Misfit sizes_of(const std::vector<Curve>& curves) {
+  std::vector<double> sizes;
+  for (const Curve& curve : curves) sizes.push_back(curve.misfit->size);
+  std::sort(sizes.begin(), sizes.end());
+  return {quantile_of(sizes, 0.025), quantile_of(sizes, 0.5), quantile_of(sizes, 0.975),
+          static_cast<double>(std::count(sizes.begin(), sizes.end(), 0.0)) / static_cast<double>(sizes.size())};
+}
 
 /// The c at which the mean of Φ((c − ŷ_k)/w_k) is `share`, by Newton's method within a bracket.
 double mixture_quantile(const std::vector<double>& centres, const std::vector<double>& widths, double share) {
@@ -111,13 +135,7 @@ Bands bands(const Question& question, const std::vector<Chain>& chains, const st
     curve.predictions.resize(rows);
     if (!question.assembly.evaluator().predict(free, curve.predictions, {}, *workspace).ok())
       return curve.predictions.clear();
-    if (question.factor_known) return;
-    std::vector<double> residuals(question.whitening.count());
-    assembly::whitened_residuals(question.whitening, free, curve.predictions, {}, residuals, {});
-    double squares = 0;
-    for (std::size_t i = 0; i < question.whitening.rows.size(); ++i) squares += residuals[i] * residuals[i];
-    CounterRandom random(k);
-    curve.factor = std::sqrt(squares / numerics::chi_squared_quantile(random.uniform(), question.rows()));
+    add_errors(question, free, CounterRandom(k), curve);
   });
   if (is_over()) complete = false;
   std::erase_if(curves, [](const Curve& curve) { return curve.predictions.empty(); });
@@ -125,6 +143,7 @@ Bands bands(const Question& question, const std::vector<Chain>& chains, const st
   for (auto* const one : {&found.lower, &found.median, &found.upper, &found.lowest_measured, &found.highest_measured})
     one->assign(rows, unknown);
   if (curves.empty() || !complete) return found;
+  if (question.discrepancy) found.misfit = sizes_of(curves);
   const std::vector<double> sd = deviations(question);
   tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
     std::vector<double> centres, widths;
@@ -137,7 +156,12 @@ Bands bands(const Question& question, const std::vector<Chain>& chains, const st
     found.median[row] = quantile_of(centres, 0.5);
     found.upper[row] = quantile_of(centres, 0.975);
     if (!std::isfinite(sd[row])) return;
-    for (std::size_t k = 0; k < curves.size(); ++k) centres[k] = curves[k].predictions[row];
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+      centres[k] = curves[k].predictions[row];
+      if (!curves[k].misfit) continue;
+      centres[k] += curves[k].misfit->mean[row];
+      widths[k] = std::hypot(widths[k], curves[k].misfit->sd[row]);
+    }
     found.lowest_measured[row] = mixture_quantile(centres, widths, 0.025);
     found.highest_measured[row] = mixture_quantile(centres, widths, 0.975);
   });

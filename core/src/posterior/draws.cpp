@@ -57,20 +57,24 @@ Centre centre(const Question& question, std::span<const double> best) {
     found.status = Status::failed("the best point cannot be simulated, or breaks a constraint");
     return found;
   }
-  // The scale is that of the centre, which is found again with it.
-  climb(rough, point);
-  found.scale = rough.scale_at(point);
-  Target target(question, found.scale);
-  const Vector z = point.z;
-  static_cast<void>(target.evaluate(z, point));
-  climb(target, point);
-  found.evaluations = rough.evaluations + target.evaluations;
+  // The metric is that of the centre, which is found again with it. With a discrepancy plain residuals would climb in
+  // steps that are far too small.
+  if (!question.discrepancy) climb(rough, point);
+  found.evaluations = rough.evaluations;
+  for (int pass = 0; pass < (question.discrepancy ? 2 : 1); ++pass) {
+    found.metric = rough.metric_at(point);
+    Target target(question, found.metric);
+    const Vector z = point.z;
+    static_cast<void>(target.evaluate(z, point));
+    climb(target, point);
+    found.evaluations += target.evaluations;
+  }
   return found;
 }
 
 Chain chain(const Question& question, const Centre& from, std::size_t draws, std::uint64_t key,
             const std::function<bool()>& is_over) {
-  Target target(question, from.scale);
+  Target target(question, from.metric);
   CounterRandom random(key);
   Chain made;
   made.parameters = question.assembly.layout().parameters.size();

@@ -11,11 +11,11 @@
 
 namespace tunica::posterior {
 
-/// The mode in z, by damped Newton from the best point, evaluated with its scale c. Failed in `status` where the best
+/// The mode in z, by damped Newton from the best point, evaluated with its metric. Failed in `status` where the best
 /// point breaks a constraint or cannot be simulated.
 struct Centre {
   Status status;
-  double scale = 1;
+  Target::Metric metric;
   Point point;
   std::size_t evaluations = 0;
 };

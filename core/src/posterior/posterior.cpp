@@ -51,13 +51,14 @@ double Posterior::effective_size() const {
 }
 
 Posterior sample(const assembly::Assembly& assembly, std::span<const double> best, std::size_t draws,
-                 std::uint64_t seed, const std::function<bool()>& interrupted, std::span<const double> measured) {
+                 std::uint64_t seed, const std::function<bool()>& interrupted, std::span<const double> measured,
+                 bool discrepancy) {
   Posterior found;
   if (best.empty()) {
     found.status = Status::failed("no parameter is free");
     return found;
   }
-  const auto question = question_at(assembly, best, measured, found.status);
+  const auto question = question_at(assembly, best, measured, found.status, discrepancy);
   if (!question) return found;
   found.factor_known = question->factor_known;
   const plugins::Clock::time_point deadline = plugins::deadline_of_this_thread();

@@ -41,9 +41,9 @@ struct Posterior {
 };
 
 /// `draws` of all four chains together, rounded up to a multiple of four. A chain depends on seed and number alone, so
-/// that the outcome is the same for any number of threads. `measured` as in question_at().
+/// that the outcome is the same for any number of threads. `measured` and `discrepancy` as in question_at().
 Posterior sample(const assembly::Assembly& assembly, std::span<const double> best, std::size_t draws,
                  std::uint64_t seed, const std::function<bool()>& interrupted = {},
-                 std::span<const double> measured = {});
+                 std::span<const double> measured = {}, bool discrepancy = false);
 
 }  // namespace tunica::posterior

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "numerics/distributions.hpp"
 
@@ -18,27 +19,49 @@ using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynam
 /// Φ(z).
 double below(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
+/// σ of channels without a statement as the fit weighs by it, without what the model misses.
+void believe_estimates(const assembly::Assembly& assembly, assembly::Whitening& whitening) {
+  std::size_t at = 0;
+  for (const auto& view : assembly.layout().channels) {
+    if (at == whitening.rows.size()) return;
+    if (const std::size_t first = whitening.rows[at].prediction;
+        first < view.offset || first >= view.offset + view.count)
+      continue;
+    for (const double sd : view.sigma.rows.sd) whitening.rows[at++].sd = sd;
+  }
+}
+
 }  // namespace
 
 std::optional<Question> question_at(const assembly::Assembly& assembly, std::span<const double> best,
-                                    std::span<const double> measured, Status& status) {
+                                    std::span<const double> measured, Status& status, bool discrepancy) {
   const auto workspace = assembly.evaluator().make_workspace();
   std::vector<double> predictions(assembly.layout().prediction_count);
   status = assembly.evaluator().predict(best, predictions, {}, *workspace);
   if (!status.ok()) return {};
-  Question question{assembly, assembly::whitening(assembly, predictions, measured), true};
+  Question question{assembly, assembly::whitening(assembly, predictions, measured, discrepancy), true};
   if (question.whitening.rows.empty()) {
     status = Status::failed("no row is fitted that counts");
     return {};
+  }
+  if (discrepancy) {
+    believe_estimates(assembly, question.whitening);
+    std::vector<double> residuals(question.whitening.count());
+    assembly::whitened_residuals(question.whitening, best, predictions, {}, residuals, {});
+    const Eigen::Map<const Eigen::VectorXd> r(residuals.data(),
+                                              static_cast<Eigen::Index>(question.whitening.rows.size()));
+    question.discrepancy.emplace(assembly, question.whitening, predictions, r);
+    question.factor_known = question.discrepancy->factor_known();
+    return question;
   }
   const bool left = question.whitening.rows.size() > best.size();  // as Whitening::quantile()
   question.factor_known = (question.whitening.stated && question.whitening.widening == 1) || !left;
   return question;
 }
 
-Target::Target(const Question& question, double scale)
+Target::Target(const Question& question, Metric metric)
     : question_(question),
-      scale_(scale),
+      metric_(std::move(metric)),
       n_(question.assembly.layout().parameters.size()),
       workspace_(question.assembly.evaluator().make_workspace()),
       unit_(n_),
@@ -64,10 +87,10 @@ Eigen::VectorXd Target::coordinates(std::span<const double> free) const {
   return z;
 }
 
-double Target::scale_at(const Point& point) const {
-  if (question_.factor_known) return 1;
-  return std::sqrt(question_.rows() /
-                   point.rows.head(static_cast<Eigen::Index>(question_.whitening.rows.size())).squaredNorm());
+Target::Metric Target::metric_at(const Point& point) const {
+  if (question_.discrepancy) return question_.discrepancy->metric(point.residuals);
+  if (question_.factor_known) return {};
+  return {std::sqrt(question_.rows() / point.residuals.squaredNorm()), {}};
 }
 
 bool Target::evaluate(const Eigen::VectorXd& z, Point& point) {
@@ -88,19 +111,31 @@ bool Target::evaluate(const Eigen::VectorXd& z, Point& point) {
   // dx/dz = φ(z)
   const Eigen::VectorXd x_by_z = (-0.5 * z.array().square()).exp() / std::sqrt(2 * std::numbers::pi);
   point.z = z;
+  point.residuals = r.head(fitted);
   point.rows.resize(all + n);
-  point.rows << scale_ * r.head(fitted), r.tail(all - fitted), z;
+  point.rows << r, z;
   point.slopes.resize(all + n, n);
   point.slopes.topRows(all) = Rows(jacobian_.data(), all, n) * x_by_z.asDiagonal();
-  point.slopes.topRows(fitted) *= scale_;
   point.slopes.bottomRows(n).setIdentity();
-  // ln L, and what its slope is of that of −½ c² ‖r‖²
-  const double squares = r.head(fitted).squaredNorm(), rows = question_.rows();
-  const double slope = (question_.factor_known ? 1 : rows / squares) / (scale_ * scale_);
-  point.log_density = question_.factor_known ? -0.5 * squares : -0.5 * rows * std::log(squares);
+  // ln L, and −∂ ln L/∂r
+  Eigen::VectorXd pull;
+  if (question_.discrepancy) {
+    point.log_density = question_.discrepancy->log_likelihood(point.residuals, pull);
+  } else {
+    const double squares = point.residuals.squaredNorm(), rows = question_.rows();
+    point.log_density = question_.factor_known ? -0.5 * squares : -0.5 * rows * std::log(squares);
+    pull = (question_.factor_known ? 1 : rows / squares) * point.residuals;
+  }
   point.log_density -= 0.5 * (r.tail(all - fitted).squaredNorm() + z.squaredNorm());
-  point.gradient.noalias() = -slope * (point.slopes.topRows(fitted).transpose() * point.rows.head(fitted));
+  point.gradient.noalias() = -point.slopes.topRows(fitted).transpose() * pull;
   point.gradient.noalias() -= point.slopes.bottomRows(all - fitted + n).transpose() * point.rows.tail(all - fitted + n);
+  if (question_.discrepancy) {
+    question_.discrepancy->transform(metric_, point.slopes.topRows(fitted));
+    question_.discrepancy->transform(metric_, point.rows.head(fitted));
+  } else {
+    point.slopes.topRows(fitted) *= metric_.scale;
+    point.rows.head(fitted) *= metric_.scale;
+  }
   // A prior is a density in p: on a logarithmic scale dp/dx = p ln(max/min) comes with it.
   for (const auto& prior : question_.whitening.priors) {
     const auto& parameter = assembly.layout().parameters[prior.index];
