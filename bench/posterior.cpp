@@ -61,5 +61,6 @@ int main(int count, char** arguments) {
   const auto gho = bench::gho_strips(bench::catalogue());
   if (sets > 0) calibrate("gho, two strips", gho, sets);
   if (sets > 0) calibrate("ogden, rubber", bench::ogden_rubber(bench::catalogue()), sets);
+  if (sets > 0) calibrate("hgo, long tube", bench::hgo_tube(bench::catalogue()), sets);
   measure(gho, draws);
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include <gmock/gmock.h>
+#include <signal.h>
 
 #include "cli/bench.hpp"
 
@@ -40,6 +43,23 @@ TEST(PosteriorOfARun, IsDrawnAlsoWhenTheRunHasFinished) {
   EXPECT_EQ(bench.text("one" + file.substr(3)), bench.text(file));
 }
 
+TEST(PosteriorOfARun, AllowsForASmoothMisfit) {
+  trial::Bench bench;
+  bench.experiment["runs"] = {{{"model", "neo"}, {"optimizer", "lm"}}};
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--discrepancy", "--posterior=800"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto result = bench.result("out");
+  const auto& found = result["runs"][0]["best"]["posterior"];
+  EXPECT_EQ(found["draws"], 800);
+  const auto& misfit = found["discrepancy"];
+  EXPECT_LE(misfit["ci95"][0], misfit["median"]);
+  EXPECT_LE(misfit["median"], misfit["ci95"][1]);
+  EXPECT_GE(misfit["none"], 0);
+  EXPECT_LE(misfit["none"], 1);
+  EXPECT_THAT(result["runs"][0]["best"]["uncertainty"].dump(), HasSubstr("a smooth misfit beside the model"));
+  EXPECT_EQ(nlohmann::json::parse(bench.text("out/input.json"))["analysis"]["posterior"]["discrepancy"], true);
+}
+
 // What a run leaves that is killed while its chains are drawn: they are drawn anew, to the same bits.
 TEST(PosteriorOfARun, IsDrawnAnewWhereItWasInterrupted) {
   trial::Bench bench;
@@ -51,6 +71,37 @@ TEST(PosteriorOfARun, IsDrawnAnewWhereItWasInterrupted) {
   std::filesystem::remove(bench.path(file));
   ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--resume"}).code, 0);
   EXPECT_EQ(bench.text(file), draws);
+}
+
+// A process that is killed at some moment while chains are drawn, twice: the draws are those of a run that never was.
+TEST(PosteriorOfARun, IsTheSameToTheBitAfterItsProcessWasKilled) {
+  trial::Bench bench;
+  bench.experiment["analysis"]["posterior"] = {{"draws", 8000}, {"discrepancy", true}};
+  bench.save();
+  const auto run = [&](const std::string& output, bool resume) {
+    std::vector<std::string> words{"run", "experiment.json", "-o", output, "-j", "2", "--no-certificate"};
+    if (resume) words.push_back("--resume");
+    return trial::tunica_command(words);
+  };
+  ASSERT_EQ(trial::Process(run("whole", false), bench.folder.path()).wait().code, 0);
+  const std::string file = bench.result("whole")["runs"][0]["best"]["posterior"]["file"];
+  for (const bool resume : {false, true}) {
+    trial::Process process(run("killed", resume), bench.folder.path());
+    // Chains are drawn once the journal of the search is whole.
+    const auto searched = std::filesystem::file_size(bench.path("whole/evaluations.csv"));
+    for (int attempt = 0; attempt < 3000; ++attempt) {
+      std::error_code none;
+      if (std::filesystem::file_size(bench.path("killed/evaluations.csv"), none) + 200 >= searched && !none) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    ASSERT_FALSE(std::filesystem::exists(bench.path("killed/" + file))) << "killed too late";
+    process.signal(SIGKILL);
+    EXPECT_EQ(process.wait().code, 128 + SIGKILL);
+  }
+  ASSERT_EQ(trial::Process(run("killed", true), bench.folder.path()).wait().code, 0);
+  EXPECT_TRUE(bench.text("killed/" + file) == bench.text("whole/" + file));
+  EXPECT_EQ(trial::without_times(bench.result("killed")), trial::without_times(bench.result("whole")));
 }
 
 // The linearised limits are compared here once more, from what result.json says.
