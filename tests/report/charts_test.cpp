@@ -245,3 +245,36 @@ TEST(Grid, ThatCannotBeReadIsToldOf) {
   EXPECT_EQ(refused(grid, "0 0 0 1 0 0 1 0 0", "0 0"),
             "a.vtu: has another number of 'displacement [mm]' than of points");
 }
+
+TEST(SpectrumChart, HasASymbolForEachBranchAndBarsAlongBothAxes) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", R"({"format": 1, "runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best":
+    {"objective": 1, "parameters": {
+      "mu": {"value": 20, "unit": "kPa", "ci95": [19, 21]},
+      "fast.g": {"value": 0.8, "unit": "1", "ci95": [0.7, 0.9]},
+      "fast.tau": {"value": 2, "unit": "s", "ci95": [1, 4], "posterior_ci95": [1.5, 3]},
+      "viscoelasticity.g": {"value": 0.3, "unit": "1", "ci95": null}}},
+    "fixed": {"viscoelasticity.tau": {"value": 100, "unit": "s"}}}],
+    "ranking": [{"run": "m/o", "rank": 1, "group": "g"}]})");
+  scratch.write("input.json", R"({"models": {"m": {"type": "yeoh", "mechanisms": [
+    {"type": "viscoelasticity", "as": "fast"}, {"type": "viscoelasticity"}, {"type": "damage"}]}}})");
+  const auto chart = charts(scratch)["spectrum_m"];
+  ASSERT_EQ(chart["series"].size(), 3u);
+  const auto &bars = chart["series"][0], &across = chart["series"][1], &points = chart["series"][2];
+  EXPECT_EQ(points["x"], nlohmann::json({2, 100}));
+  EXPECT_EQ(points["y"], nlohmann::json({0.8, 0.3}));
+  EXPECT_EQ(bars["x"], nlohmann::json({2})) << "no interval where the data fix none";
+  EXPECT_EQ(bars["low"], nlohmann::json({0.7}));
+  EXPECT_EQ(bars["high"], nlohmann::json({0.9}));
+  EXPECT_EQ(across["x"][0], 1.5) << "the posterior before the linearised interval";
+  EXPECT_EQ(across["x"][1], 3);
+  EXPECT_EQ(across["y"][2], nullptr) << "a gap before the next branch";
+  EXPECT_EQ(chart["x"]["log"], true);
+}
+
+TEST(SpectrumChart, IsLeftOutWithoutBranches) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", one_run);
+  scratch.write("input.json", R"({"models": {"m": {"type": "yeoh", "mechanisms": [{"type": "damage"}]}}})");
+  EXPECT_FALSE(charts(scratch).contains("spectrum_m"));
+}

@@ -220,6 +220,7 @@ void add_parameters(Page& page, const Folder& folder, const Order& order) {
     }
     page.end_pair();
   }
+  add_spectra(page, folder, order);
   add_profiles(page, folder, order);
   add_pairs(page, folder, order);
   add_posterior(page, folder, order);

@@ -21,6 +21,8 @@ void add_walls(Page& page, const Folder& folder);
 bool add_field(Page& page, const Folder& folder, const Order& order, const Table& table, const std::string& test);
 void add_searches(Page& page, const Folder& folder, const Order& order);
 void add_parameters(Page& page, const Folder& folder, const Order& order);
+/// Relaxation times and stiffnesses of Prony series.
+void add_spectra(Page& page, const Folder& folder, const Order& order);
 /// Histograms and pairs of the draws from the posterior.
 void add_posterior(Page& page, const Folder& folder, const Order& order);
 void add_stability(Page& page, const Folder& folder, const Order& order);
