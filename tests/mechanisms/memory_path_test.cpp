@@ -6,10 +6,12 @@
 
 #include "deformations.hpp"
 #include "shelf.hpp"
+#include "support/row_by_row.hpp"
 #include "support/sheet.hpp"
 #include "support/strip.hpp"
 #include "support/tensors_only.hpp"
 #include "support/tube.hpp"
+#include "tunica/maxwell_model.hpp"
 
 // Models with memory in principal axes: against the same model row by row on tensors, and against differences.
 namespace tunica::memory_path_test {
@@ -95,6 +97,51 @@ Answer ask(const Test& test, const Model& model, const std::vector<double>& p, b
   const Status status = test.predict({model, p, own}, {answer.values, answer.jacobian, {}, {}});
   EXPECT_TRUE(status.ok()) << status.reason();
   return answer;
+}
+
+// Branches of Maxwell are followed in columns of all rows, whatever else remembers row by row.
+TEST(MaxwellPath, PredictsWhatTheSamePathRowByRowDoes) {
+  // Unequal steps of time, two rows at once among them, and more parameters than go together.
+  const std::vector<double> stretch = cycles(), time{0.2, 1, 1, 2.5, 4, 5, 5.001, 6, 8, 30, 31, 300};
+  const std::pair<std::string, std::vector<double>> fast{"viscoelasticity", {0.8, 0.5}},
+      slow{"viscoelasticity", {0.3, 60}}, slowest{"viscoelasticity", {0.2, 2000}};
+  const std::vector<double> gho{18.668, 0.1367, 24.905, 0.2912, 46.44};
+  for (const auto& base : {std::pair<std::string, std::vector<double>>{"gho", gho}, {"yeoh", {30, 4, 0.5}}})
+    for (std::size_t branches = 1; branches <= 7; ++branches)
+      for (const char* direction : {"circumferential", "axial"}) {
+        auto made = model(base.first), other = model(base.first);
+        std::vector<double> p = base.second;
+        for (std::size_t b = 0; b < branches; ++b) {
+          const auto& [id, own] = b % 3 == 0 ? fast : b % 3 == 1 ? slow : slowest;
+          made = wrapped(id, std::move(made));
+          other = wrapped(id, std::move(other));
+          p.insert(p.end(), own.begin(), own.end());
+        }
+        std::vector<MaxwellModel::Branch> found;
+        const auto* const maxwell = dynamic_cast<const MaxwellModel*>(made.get());
+        ASSERT_NE(maxwell, nullptr) << "through the guard";
+        ASSERT_TRUE(maxwell->add_branches(found));
+        ASSERT_EQ(found.size(), branches);
+        EXPECT_EQ(found.back().tau, p.size() - 1);
+        const testing::RowByRow slowly(std::move(other));
+        testing::StripSetup setup{.direction = direction, .channels = {"stress", "transverse_stretch"}};
+        setup.time = time;
+        const auto test = testing::make_strip(stretch, setup);
+        const Answer columns = ask(*test, *made, p, true), rows = ask(*test, slowly, p, true);
+        EXPECT_LE(testing::relative_difference(columns.values, rows.values), 1e-12) << base.first << branches;
+        EXPECT_LE(testing::relative_difference(columns.jacobian, rows.jacobian), 1e-12) << base.first << branches;
+        EXPECT_LE(testing::relative_difference(ask(*test, *made, p, false).values, rows.values), 1e-11);
+      }
+}
+
+TEST(MaxwellPath, IsNotThatOfAModelThatRemembersMore) {
+  const auto torn = wrapped("viscoelasticity", wrapped("damage", model("gho")));
+  std::vector<MaxwellModel::Branch> found;
+  const auto* const maxwell = dynamic_cast<const MaxwellModel*>(torn.get());
+  EXPECT_FALSE(maxwell != nullptr && maxwell->add_branches(found));
+  const auto softened = wrapped("stress_softening", wrapped("viscoelasticity", model("gho")));
+  const auto* const outside = dynamic_cast<const MaxwellModel*>(softened.get());
+  EXPECT_FALSE(outside != nullptr && outside->add_branches(found));
 }
 
 class MemoryPath : public ::testing::TestWithParam<bool> {};

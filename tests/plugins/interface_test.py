@@ -9,8 +9,8 @@ import pathlib
 import re
 import sys
 
-headers = ["energy_part.hpp", "error.hpp", "mechanism.hpp", "model.hpp", "optimizer.hpp", "options.hpp", "parameter.hpp",
-           "plugin.hpp", "status.hpp", "strip_path.hpp", "test.hpp"]
+headers = ["energy_part.hpp", "error.hpp", "maxwell_model.hpp", "mechanism.hpp", "model.hpp", "optimizer.hpp",
+           "options.hpp", "parameter.hpp", "plugin.hpp", "status.hpp", "strip_path.hpp", "test.hpp"]
 include, record = map(pathlib.Path, sys.argv[1:3])
 
 

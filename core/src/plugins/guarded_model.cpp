@@ -222,6 +222,11 @@ void GuardedModel::remember(const AxisStep& step) const {
   model_->remember(step);
 }
 
+bool GuardedModel::add_branches(std::vector<Branch>& found) const {
+  const auto* const maxwell = dynamic_cast<const MaxwellModel*>(model_.get());
+  return maxwell != nullptr && guarded(plugin_, "add_branches", [&] { return maxwell->add_branches(found); });
+}
+
 bool GuardedModel::remembers(std::span<const double> parameters) const {
   return guarded(plugin_, "remembers", [&] { return model_->remembers(parameters); });
 }

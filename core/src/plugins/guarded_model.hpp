@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "plugins/overrun.hpp"
+#include "tunica/maxwell_model.hpp"
 #include "tunica/model.hpp"
 
 namespace tunica::plugins {
@@ -18,7 +20,7 @@ const Model*& last_failed_model();
 /// A model of a plugin that the host need not trust. What it throws, an output that it does not write or writes beyond,
 /// and a call that has ended a process before are all a `failed` status which names the plugin. Costs a call some 20
 /// ns: the record of calls, and marks in the outputs.
-class GuardedModel final : public Model {
+class GuardedModel final : public Model, public MaxwellModel {
  public:
   GuardedModel(std::unique_ptr<Model> model, std::string plugin);
   ~GuardedModel() override;
@@ -35,6 +37,8 @@ class GuardedModel final : public Model {
   [[nodiscard]] const Model& incompressible() const override;
   [[nodiscard]] bool remembers(std::span<const double> parameters) const override;
   void remember(const AxisStep& step) const override;
+  /// False of a model that is no MaxwellModel.
+  bool add_branches(std::vector<Branch>& found) const override;
 
   [[nodiscard]] const std::string& plugin() const { return plugin_; }
   /// The model without its guard, for a mechanism that goes around it.

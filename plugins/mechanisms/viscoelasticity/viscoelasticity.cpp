@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "deviator.hpp"
+#include "tunica/maxwell_model.hpp"
 #include "tunica/models/history_model.hpp"
 #include "tunica/plugin.hpp"
 
@@ -54,11 +55,18 @@ struct Relaxation {
 };
 
 /// State: h, then S' of the last step.
-class ViscoelasticModel final : public HistoryModel {
+class ViscoelasticModel final : public HistoryModel, public MaxwellModel {
  public:
   explicit ViscoelasticModel(std::unique_ptr<Model> base)
       : HistoryModel("viscoelasticity", std::move(base), own_parameters(), own_history, own_axis_history),
         beside_(dynamic_cast<const ViscoelasticModel*>(&this->base())) {}
+
+  bool add_branches(std::vector<Branch>& found) const override {
+    const ModelDescription& bare = base().describe();
+    if (beside_ != nullptr ? !beside_->add_branches(found) : bare.history_size > 0) return false;
+    found.push_back({bare.parameters.size(), bare.parameters.size() + 1});
+    return true;
+  }
 
  private:
   Status evaluate_step(Step& call) const override {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maxwell_pass.hpp"
 #include "tunica/detail/axis_path.hpp"
 #include "tunica/detail/solve_strip.hpp"
+#include "tunica/detail/vector_math.hpp"
 
 namespace tunica::uniaxial {
 namespace {
@@ -19,18 +21,20 @@ constexpr double near = 1e-5, settled = 1e-9;
 struct Memory {
   free_strip::Scratch elastic;
   detail::AxisPath path;
-  std::vector<double> u,   ///< λ2², one a row
+  std::vector<MaxwellModel::Branch> branches;
+  std::vector<double> y,   ///< ln λ2² of the elastic strip
+      u,                   ///< λ2², one a row
       step, before,        ///< of Newton in y, and the one before
       stress, by_unknown,  ///< σ11 with the step in it; what directions do to y
-      stress_dp, y_dp;     ///< derivatives by model parameters, row-major
+      stress_dp, y_dp;     ///< derivatives by model parameters, of row i at [j·n + i]
 };
 Memory& thread_memory() {
   thread_local Memory instance;
   return instance;
 }
 
-/// One pass along the path at u. Without parameters: Newton's step of every row, that of the rows before it included.
-/// With them: total derivatives of σ11 and y.
+/// One pass along the path at u, row by row. Without parameters: Newton's step of every row, that of the rows before it
+/// included. With them: total derivatives of σ11 and y.
 class Pass {
  public:
   /// `symmetric`: the elastic response does not tell the lateral axes apart. Rows that memory leaves so stay at λ2 =
@@ -50,13 +54,12 @@ class Pass {
     if (Status status = m_.path.evaluate(parameters); !status.ok()) return status;
     m_.path.begin(1, 1, parameters, !strip_.time.empty());
     m_.by_unknown.assign(m_.path.width(), 0);
-    largest_ = 0;
-    sound_ = true;
-    for (std::size_t i = 0; i < n_ && sound_; ++i) row(i, parameters);
+    newton_ = {};
+    for (std::size_t i = 0; i < n_ && newton_.sound; ++i) row(i, parameters);
     return {};
   }
-  [[nodiscard]] bool sound() const { return sound_; }
-  [[nodiscard]] double largest_step() const { return largest_; }
+  [[nodiscard]] bool sound() const { return newton_.sound; }
+  [[nodiscard]] double largest_step() const { return newton_.largest; }
 
  private:
   void set_stretches() {
@@ -90,22 +93,17 @@ class Pass {
     const double at_step = residual + c2 * g2[2] - c3 * g3[2];
     const bool rests = symmetric_ && std::abs(at_step) <=
                                          free_strip::alike * c2 * (std::abs(g1[0]) + std::abs(g2[0]) + std::abs(g3[0]));
-    double step = rests ? 0 : -at_step / slope;
-    sound_ = rests || (slope > 0 && std::abs(step) < 1e10);
-    largest_ = std::max(largest_, std::abs(step));
-    step = std::clamp(step, -0.6, 1.5);
-    // Where fibres switch, steps may go to and fro across the kink.
-    if (step * m_.before[i] < 0 && std::abs(step) > 0.5 * std::abs(m_.before[i])) step *= 0.5;
-    m_.step[i] = m_.before[i] = step;
+    const double by_residual = rests ? 0 : -1 / slope;
+    const double step = m_.step[i] = newton_.take(at_step, slope, by_residual, rests, m_.before[i]);
     m_.stress[i] = stress + 2 * (c1 * g1[2] - c3 * g3[2]) + stress_by_y * step;
     double* const by = m_.by_unknown.data();
     by[2] = step;
     const std::size_t first = path.parameter_place();
     for (std::size_t j = 0; parameters && j < count_; ++j) {
       const std::size_t k = first + j;
-      by[k] = rests ? 0 : -(c2 * g2[k] - c3 * g3[k]) / slope;
-      m_.y_dp[i * count_ + j] = by[k];
-      m_.stress_dp[i * count_ + j] = 2 * (c1 * g1[k] - c3 * g3[k]) + stress_by_y * by[k];
+      by[k] = (c2 * g2[k] - c3 * g3[k]) * by_residual;
+      m_.y_dp[j * n_ + i] = by[k];
+      m_.stress_dp[j * n_ + i] = 2 * (c1 * g1[k] - c3 * g3[k]) + stress_by_y * by[k];
     }
     path.settle(by);
   }
@@ -114,9 +112,49 @@ class Pass {
   std::span<const double> stretch_;
   Memory& m_;
   std::size_t n_, count_;
-  bool symmetric_, sound_ = true;
-  double largest_ = 0;
+  bool symmetric_;
+  NewtonStep newton_;
 };
+
+/// Whether the model has no other memory than as many Maxwell branches as can be followed together.
+bool find_branches(const Model& model, std::size_t parameters, std::vector<MaxwellModel::Branch>& found) {
+  found.clear();
+  const auto* const maxwell = dynamic_cast<const MaxwellModel*>(&model);
+  return maxwell != nullptr && maxwell->add_branches(found) && !found.empty() &&
+         found.size() <= MaxwellPass::most_branches &&
+         std::all_of(found.begin(), found.end(),
+                     [parameters](const auto& one) { return one.g < parameters && one.tau < parameters; });
+}
+
+/// u ← u e^y
+void stretch_by(const std::vector<double>& y, std::vector<double>& u) {
+  detail::vectorised([n = u.size(), by = y.data(), to = u.data()] {
+    TUNICA_LANES
+    for (std::size_t i = 0; i < n; ++i) to[i] *= detail::lane_exp(by[i]);
+  });
+}
+
+/// Passes until all rows have settled; false where they do not.
+template <class AnyPass>
+bool settle(AnyPass& pass, bool symmetric, bool parameters, Memory& m, Status& status) {
+  const auto step_on = [&m] { stretch_by(m.step, m.u); };
+  // Symmetry has given the answer already: one pass then has values and derivatives.
+  bool found = symmetric && parameters;
+  for (int k = 0; k < iterations && !found; ++k) {
+    if (status = pass.run(false); !status.ok()) return false;
+    if (!pass.sound()) return false;
+    found = pass.largest_step() < (parameters ? near : free_strip::last_step);
+    if (!found || parameters) step_on();
+  }
+  for (int k = 0; parameters && found && k < iterations; ++k) {
+    if (status = pass.run(true); !status.ok()) return false;
+    found = pass.sound();
+    if (!found || pass.largest_step() < settled) break;
+    step_on();
+    found = k + 1 < iterations;
+  }
+  return found;
+}
 
 }  // namespace
 
@@ -127,7 +165,7 @@ Status MemoryPath::predict(const Strip& strip, const TestInput& input, const Tes
   const std::size_t count = input.model_parameters.size();
   const bool parameters = !output.jacobian.empty();
   Memory& m = thread_memory();
-  m.u.resize(n);
+  m.y.resize(n);
   m.step.resize(n);
   m.before.assign(n, 0);
   m.stress.resize(n);
@@ -142,50 +180,42 @@ Status MemoryPath::predict(const Strip& strip, const TestInput& input, const Tes
                  .parameters = input.model_parameters.first(elastic.describe().parameters.size()),
                  .stretch = stretch,
                  .stress = {},
-                 .lateral = m.u};
+                 .lateral = m.y};
   if (input.abscissae.empty()) start_.set(path);
   if (Status status = free_strip::solve(elastic, path, m.elastic); !status.ok()) return status;
-  for (double& u : m.u) u = std::exp(u);
-
+  m.u.assign(n, 1);
+  stretch_by(m.y, m.u);
   const bool symmetric = free_strip::is_symmetric({elastic, path.parameters, path.loaded}, stretch);
   if (symmetric)
     for (std::size_t i = 0; i < n; ++i) m.u[i] = 1 / stretch[i];
-  Pass pass(strip, input, stretch, symmetric, m);
-  const auto step_on = [&] {
-    for (std::size_t i = 0; i < n; ++i) m.u[i] *= std::exp(m.step[i]);
-  };
-  // Symmetry has given the answer already: one pass then has values and derivatives.
-  bool found = symmetric && parameters;
-  for (int k = 0; k < iterations && !found; ++k) {
-    if (Status status = pass.run(false); !status.ok()) return status;
-    if (!pass.sound()) break;
-    found = pass.largest_step() < (parameters ? near : free_strip::last_step);
-    if (!found || parameters) step_on();
-  }
-  for (int k = 0; parameters && found && k < iterations; ++k) {
-    if (Status status = pass.run(true); !status.ok()) return status;
-    found = pass.sound();
-    if (!found || pass.largest_step() < settled) break;
-    step_on();
-    found = k + 1 < iterations;
-  }
+  const PathRows rows_of_path{stretch, m.u, m.step, m.before, m.stress, m.stress_dp, m.y_dp};
+  Status status;
+  const auto settles = [&](auto&& pass) { return settle(pass, symmetric, parameters, m, status); };
+  const bool of_branches = !strip.time.empty() && find_branches(input.model, count, m.branches);
+  const bool found = of_branches ? settles(MaxwellPass(strip, input, rows_of_path, symmetric, m.branches))
+                                 : settles(Pass(strip, input, stretch, symmetric, m));
+  if (!status.ok()) return status;
   if (!found) return Status::failed("uniaxial: no lateral equilibrium along the path of a model with memory");
 
+  stretch_by(m.step, m.u);
   for (std::size_t i = 0; i < n; ++i) {
-    const RowSolution row{stretch[i], m.stress[i], std::log(m.u[i]) + m.step[i], 0, 0};
-    if (!std::isfinite(row.stress) || !std::isfinite(row.y))
+    if (!std::isfinite(m.stress[i]) || !(m.u[i] > 0) || !std::isfinite(m.u[i]))
       return Status::failed("uniaxial: the stress overflows at " + row_name(strip, stretch, i));
-    for (std::size_t k = 0; k < channels; ++k) {
-      const std::size_t at = k * n + i;
-      if (!output.values.empty()) output.values[at] = channel_value(strip.channels[k], strip.measure, row);
-      for (std::size_t j = 0; parameters && j < count; ++j)
-        output.jacobian[j * rows + at] = channel_derivative(strip.channels[k], strip.measure, row,
-                                                            m.stress_dp[i * count + j], m.y_dp[i * count + j]);
-    }
-    if (!output.diagnostics.empty()) {
-      output.diagnostics[i] = std::exp(row.y / 2);
-      output.diagnostics[n + i] = 1 / (stretch[i] * output.diagnostics[i]);
-    }
+    if (output.diagnostics.empty()) continue;
+    output.diagnostics[i] = std::sqrt(m.u[i]);
+    output.diagnostics[n + i] = 1 / (stretch[i] * output.diagnostics[i]);
+  }
+  for (std::size_t k = 0; k < channels; ++k) {
+    const auto solution = [&](std::size_t i) {
+      const double y = strip.channels[k] == Channel::stress ? 0 : std::log(m.u[i]);
+      return RowSolution{stretch[i], m.stress[i], y, 0, 0};
+    };
+    for (std::size_t i = 0; !output.values.empty() && i < n; ++i)
+      output.values[k * n + i] = channel_value(strip.channels[k], strip.measure, solution(i));
+    for (std::size_t j = 0; parameters && j < count; ++j)
+      for (std::size_t i = 0; i < n; ++i)
+        output.jacobian[j * rows + k * n + i] = channel_derivative(strip.channels[k], strip.measure, solution(i),
+                                                                   m.stress_dp[j * n + i], m.y_dp[j * n + i]);
   }
   // At α = 0 the mirrored families make every channel even in α.
   if (parameters) std::fill_n(output.jacobian.data() + count * rows, rows, 0.0);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace tunica {
+
+/// A model that says that its memory is one of Maxwell branches and nothing else; a class that derives from Model may
+/// derive from this, too. In principal axes, with g_a = ½ S_aa of elastic() and c_a the squared stretches,
+///
+///   g'_a = g_a − ⅓ (Σ_b g_b c_b)/c_a,   h₊ = e^{−Δt/τ} h + g φ Δg',  φ = (1 − e^{−Δt/τ})/(Δt/τ),
+///
+/// h = 0 at rest, and the response is g_a plus the h_a of all branches: what remember() does row by row. A test that
+/// knows it may follow all rows of a path at once. It gives the same numbers to rounding.
+///
+/// Threads: as Model. Ownership: none.
+class MaxwellModel {
+ public:
+  MaxwellModel() = default;
+  MaxwellModel(const MaxwellModel&) = delete;
+  MaxwellModel& operator=(const MaxwellModel&) = delete;
+  virtual ~MaxwellModel() = default;
+
+  /// Places of g (relative stiffness) and τ (s) among the parameters of the whole model.
+  struct Branch {
+    std::size_t g, tau;
+  };
+  /// Adds its branches; false where something else remembers as well.
+  virtual bool add_branches(std::vector<Branch>& found) const = 0;
+};
+
+}  // namespace tunica
