@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether draws from the posterior are what they say: rank histograms over data sets drawn from the prior, beside the
 // band that holds each bin with probability 0.99, and the share of new rows within the 95 % band of measurements. Then
-// how long draws take.   bench_posterior [sets] [draws]
+// how long draws take.   bench_posterior [sets] [draws] [gho|ogden|tube]
 #include <chrono>
 #include <cstdlib>
 
@@ -58,9 +58,11 @@ void measure(const bench::Prior& prior, std::size_t draws) {
 int main(int count, char** arguments) {
   const auto sets = static_cast<std::size_t>(count > 1 ? std::atoi(arguments[1]) : 200);
   const auto draws = static_cast<std::size_t>(count > 2 ? std::atoi(arguments[2]) : 100000);
+  const std::string only = count > 3 ? arguments[3] : "";
+  const auto asked = [&](const char* name) { return sets > 0 && (only.empty() || only == name); };
   const auto gho = bench::gho_strips(bench::catalogue());
-  if (sets > 0) calibrate("gho, two strips", gho, sets);
-  if (sets > 0) calibrate("ogden, rubber", bench::ogden_rubber(bench::catalogue()), sets);
-  if (sets > 0) calibrate("hgo, long tube", bench::hgo_tube(bench::catalogue()), sets);
-  measure(gho, draws);
+  if (asked("gho")) calibrate("gho, two strips", gho, sets);
+  if (asked("ogden")) calibrate("ogden, rubber", bench::ogden_rubber(bench::catalogue()), sets);
+  if (asked("tube")) calibrate("hgo, long tube", bench::hgo_tube(bench::catalogue()), sets);
+  if (draws > 0) measure(gho, draws);
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "assembly/unlisted_prior.hpp"
 #include "comparison/fit_table.hpp"
 #include "execution/files.hpp"
 #include "experiment/limits.hpp"
@@ -133,6 +134,11 @@ void add_posterior(const assembly::Assembly& assembly, const Posterior& made, Ru
         fmt::format("the posterior allows for a smooth misfit beside the model: its size is {:.2g} % of the range of a "
                     "channel ({:.2g} … {:.2g} %), and there is none with a probability of {:.2g}",
                     100 * misfit->median, 100 * misfit->lower, 100 * misfit->upper, misfit->none));
+  if (found.discrepancy && found.discrepancy->upper >= assembly::unlisted::sizes.back())
+    say(summary,
+        "no larger misfit than that is allowed for: the model misses the data in kind, and bands of measurements may "
+        "be "
+        "too narrow. Take another model");
   if (!made.factor_known)
     say(summary,
         "the posterior takes one common factor of all noise for unknown, as the linearised intervals do: "
