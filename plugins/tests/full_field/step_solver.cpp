@@ -27,14 +27,20 @@ double size(const Specimen& specimen) { return std::max(specimen.extent(0), spec
 
 }  // namespace
 
-StepSolver::StepSolver(const Meshed& on, std::size_t step, Equilibrium& body)
+StepSolver::StepSolver(const Meshed& on, std::size_t step, Equilibrium& body, const FlawedSheet* flaws)
     : on_(on),
       step_(step),
       body_(body),
-      edges_(on.modes(), [this](const std::vector<double>& u) { return on_.at_points(this->step(), u); }),
+      flaws_(flaws),
+      edges_(flaws != nullptr ? flaws->modes() : on.modes(), [this](const std::vector<double>& u) { return on_.at_points(this->step(), u); }),
       measured_(FieldRows::measured(on.rows().steps()[step])) {}
 
 Eigen::VectorXd StepSolver::rest(const std::vector<double>& u) const { return measured_ - on_.at_points(step(), u); }
+
+std::vector<double> StepSolver::with_flaws(std::vector<double> u) const {
+  if (flaws_ != nullptr) flaws_->move_edges(u);
+  return u;
+}
 
 std::optional<std::string> StepSolver::settle(bool by_parameters) {
   const Equilibrium::State before = body_.state();
@@ -65,21 +71,24 @@ StepSolver::Change StepSolver::next() const {
 }
 
 /// Newton's method on the inside and the edges at once, several steps a factor as long as they shrink. Precisely, the
-/// last factor is that of the solution, so that it has the derivatives too.
+/// last factor is that of the solution, so that it has the derivatives too. What the points leave makes each new factor
+/// move the edges again, by a share of the time before: so the first step of a round is held against that of the round
+/// before.
 bool StepSolver::from_measured(bool precisely, bool by_parameters) {
-  constexpr int rounds = 6, chords = 8;
+  constexpr int rounds = 12, nearly = 3, chords = 8;
   if (!on_.has_starts()) return false;
-  body_.begin({on_.start(step_), {}});
-  double before = near * largest(body_.displacements());
+  body_.begin({with_flaws(on_.start(step_)), {}});
+  double before = 0, most = near * largest(body_.displacements());
   const double enough = precisely ? precise_step * size(on_.specimen()) : loose_step * largest(body_.displacements());
-  for (int round = 0; round < (precisely ? rounds : rounds / 2); ++round) {
+  for (int round = 0; round < (precisely ? rounds : nearly); ++round) {
     if (!body_.linearise(precisely && by_parameters && round > 0)) return false;
     edges_.linearise(body_);
     double moved = 0;
     for (int chord = 0; chord < chords; ++chord) {
       const Change change = next();
       const double step = largest(change.u);
-      if (!std::isfinite(step) || (chord == 0 && step > before) || !body_.move_by(change.u)) return false;
+      if (!std::isfinite(step) || (chord == 0 && step > most) || !body_.move_by(change.u)) return false;
+      if (chord == 0) most = step;
       moved += step;
       if (step < enough) {
         // The edges fit best in the metric of their responses, so these have to be those of the solution.
@@ -97,7 +106,7 @@ bool StepSolver::from_measured(bool precisely, bool by_parameters) {
 /// From the step before, with edges that begin as the points near them say.
 std::optional<std::string> StepSolver::along_the_way() {
   constexpr int rounds = 4, chords = 6;
-  std::vector<double> prescribed = on_.beginning(step_);
+  std::vector<double> prescribed = with_flaws(on_.beginning(step_));
   if (auto problem = body_.move_to(prescribed)) return problem;
   for (int round = 0; round < rounds; ++round) {
     if (!body_.linearise(false)) return singular;
@@ -116,7 +125,7 @@ std::optional<std::string> StepSolver::along_the_way() {
 std::optional<std::string> StepSolver::nearly_settle(bool by_parameters) {
   const bool near_by = from_measured(false, by_parameters);
   if (!near_by) {
-    body_.begin({on_.start(step_), {}});
+    body_.begin({with_flaws(on_.start(step_)), {}});
     if (!body_.linearise(false)) return singular;
     edges_.linearise(body_);
   }
@@ -137,6 +146,18 @@ std::optional<std::string> StepSolver::nearly_settle(bool by_parameters) {
 void StepSolver::by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) const {
   body_.by_parameter(j, du, df);
   edges_.follow(du, df);
+}
+
+bool StepSolver::by_flaw(std::size_t q, std::vector<double>& du, std::vector<double>& df) const {
+  const Mode edges = flaws_->edges_by(q, u_);
+  const std::vector<double> weights = flaws_->weights_by(q);
+  if (edges.empty() && weights.empty()) return false;
+  if (edges.empty())
+    body_.by_weight(weights, du, df);
+  else
+    body_.by_edge(edges, du, df);
+  edges_.follow(du, df);
+  return true;
 }
 
 }  // namespace tunica::field
