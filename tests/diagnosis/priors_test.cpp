@@ -215,10 +215,11 @@ TEST(Priors, EveryMechanismBelongsToTheMaterialOrToTheRig) {
   for (const auto& [id, entry] : testing::catalogue().mechanisms())
     groups[id] = code_of(diagnosis::group_of(entry.factory));
   for (const char* id : {"stress_softening", "viscoelasticity", "permanent_set", "residual_stress", "layered_wall",
-                         "tethering", "axial_fibres", "active_tone"})
+                         "tethering", "axial_fibres", "active_tone", "stiffer_half"})
     EXPECT_EQ(groups.at(id), "material") << id;
-  for (const char* id : {"force_offset", "signal_drift", "outliers", "geometry_error", "axial_stretch_error",
-                         "specimen_misalignment", "reference_length_error", "pressure_offset"})
+  for (const char* id :
+       {"force_offset", "signal_drift", "outliers", "geometry_error", "axial_stretch_error", "specimen_misalignment",
+        "reference_length_error", "pressure_offset", "clamp_slip", "grip_tilt", "oblique_pull", "thickness_gradient"})
     EXPECT_EQ(groups.at(id), "rig") << id;
 }
 

@@ -51,13 +51,18 @@ const std::map<std::string, Side> catalogued{{"fibre_dispersion", Side::positive
                                              {"sheet_prestretch", Side::both},
                                              {"sheet_force_offset", Side::both},
                                              {"sheet_force_scale_error", Side::both},
-                                             {"channel_lag", Side::positive}};
+                                             {"channel_lag", Side::positive},
+                                             {"clamp_slip", Side::positive},
+                                             {"grip_tilt", Side::both},
+                                             {"oblique_pull", Side::both},
+                                             {"thickness_gradient", Side::both},
+                                             {"stiffer_half", Side::both}};
 
 TEST(Catalogue, HoldsEveryMechanismWithItsSide) {
   std::map<std::string, Side> shelf;
   for (const auto& [id, entry] : testing::catalogue().mechanisms()) shelf[id] = entry.factory.side;
   EXPECT_EQ(shelf, catalogued);
-  EXPECT_EQ(shelf.size(), 38u);
+  EXPECT_EQ(shelf.size(), 43u);
 }
 
 class EveryMechanism : public ::testing::TestWithParam<std::string> {

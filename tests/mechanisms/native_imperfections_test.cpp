@@ -15,19 +15,21 @@ TEST(NativeImperfections, DeclareTheirParameterAsTheTestsDo) {
   for (const auto& [id, entry] : catalogue().mechanisms()) {
     const MechanismFactory& mechanism = entry.factory;
     if (mechanism.native.empty()) continue;
-    const Parameter& declared = mechanism.parameters.front();
     for (const std::string& type : mechanism.applies_to) {
       const auto& of_test = catalogue().tests().at(type).factory.parameters;
-      const auto native =
-          std::find_if(of_test.begin(), of_test.end(), [&](const Parameter& p) { return p.name == mechanism.native; });
-      ASSERT_NE(native, of_test.end()) << id << " of " << type;
-      EXPECT_EQ(declared.unit, native->unit) << id;
-      EXPECT_EQ(declared.min, native->min) << id;
-      EXPECT_EQ(declared.max, native->max) << id;
-      EXPECT_EQ(declared.initial, native->initial) << id;
-      EXPECT_EQ(declared.scale, native->scale) << id;
-      EXPECT_EQ(native->initial, mechanism.null) << id;
-      ++compared;
+      for (std::size_t k = 0; k < mechanism.parameters.size(); ++k) {
+        const Parameter& declared = mechanism.parameters[k];
+        const std::string name = k == 0 ? mechanism.native : mechanism.native + "_" + declared.name;
+        const auto native = std::ranges::find(of_test, name, &Parameter::name);
+        ASSERT_NE(native, of_test.end()) << id << " of " << type;
+        EXPECT_EQ(declared.unit, native->unit) << id;
+        EXPECT_EQ(declared.min, native->min) << id;
+        EXPECT_EQ(declared.max, native->max) << id;
+        EXPECT_EQ(declared.initial, native->initial) << id;
+        EXPECT_EQ(declared.scale, native->scale) << id;
+        EXPECT_EQ(native->initial, k == 0 ? mechanism.null : 0.0) << id;
+        ++compared;
+      }
     }
     for (const Option& option : mechanism.options) {
       const auto& of_test = catalogue().tests().at(mechanism.applies_to.front()).factory.options;
@@ -39,7 +41,8 @@ TEST(NativeImperfections, DeclareTheirParameterAsTheTestsDo) {
       EXPECT_EQ(option.fallback, same->fallback);
     }
   }
-  EXPECT_EQ(compared, 13u) << "six mechanisms, five of them of both tubes, two of twisted ones as well";
+  EXPECT_EQ(compared, 20u) << "six mechanisms, five of them of both tubes, two of twisted ones as well, and five of "
+                              "fields, two of them with a direction";
 }
 
 /// Every test type's parameter with a null has a mechanism that stands for it.
@@ -55,8 +58,13 @@ TEST(NativeImperfections, LeaveNoneOfTheTestsOut) {
       const auto& shelf = catalogue().mechanisms();
       EXPECT_TRUE(std::any_of(shelf.begin(), shelf.end(),
                               [&, t = type](const auto& on_shelf) {
-                                const auto& tests = on_shelf.second.factory.applies_to;
-                                return on_shelf.second.factory.native == parameter.name &&
+                                const auto& [mechanism, tests] =
+                                    std::tie(on_shelf.second.factory, on_shelf.second.factory.applies_to);
+                                const bool nuisance =
+                                    std::ranges::any_of(mechanism.parameters, [&](const Parameter& own) {
+                                      return mechanism.native + "_" + own.name == parameter.name;
+                                    });
+                                return (mechanism.native == parameter.name || nuisance) &&
                                        std::find(tests.begin(), tests.end(), t) != tests.end();
                               }))
           << parameter.name << " of " << type;

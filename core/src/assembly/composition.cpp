@@ -158,27 +158,31 @@ void override_options(Options& options, const std::vector<Option>& of_test, cons
   }
 }
 
-/// Gives the test's own parameter to the mechanism that stands for it: under its name, and free unless fixed.
+/// Gives the test's own parameters to the mechanism that stands for them: under its names, and free unless fixed. Its
+/// nuisances are the test's with the native's name before theirs.
 void expose_native(std::vector<Slot>& slots, const std::vector<Parameter>& of_test, const Layer& layer,
                    const experiment::TestEntry& entry, const std::string& prefix, const std::string& owner) {
   const MechanismFactory& factory = layer.mechanism->factory;
-  const auto found =
-      std::find_if(of_test.begin(), of_test.end(), [&](const Parameter& p) { return p.name == factory.native; });
-  if (found == of_test.end())
-    throw InputError(fmt::format(
-        "{}: the mechanism '{}' is the test's own parameter '{}', which it does not have {}; take the mechanism out",
-        owner, factory.id, factory.native, entry.layers.empty() ? "with these options" : "with \"layers\""));
-  Slot& slot = slots[static_cast<std::size_t>(found - of_test.begin())];
-  if (slot.setting)
-    throw InputError(fmt::format("{}: the mechanism '{}' is the parameter '{}' of {}; name one of the two",
-                                 slot.setting->pointer, factory.id, factory.native, owner));
-  const std::string& name = factory.parameters.front().name;
-  slot.declaration.name = fmt::format("{}{}.{}", prefix, layer.entry->name(), name);
-  slot.id.mechanism = layer.entry->name();
-  slot.id.name = name;
-  slot.setting = setting_of(layer.entry->parameters, name);
-  slot.null = std::numeric_limits<double>::quiet_NaN();
-  refuse_unknown(layer.entry->parameters, {name}, fmt::format("mechanism '{}' of {}", factory.id, owner));
+  std::vector<std::string> names;
+  for (const Parameter& parameter : factory.parameters) {
+    const std::string native = names.empty() ? factory.native : factory.native + "_" + parameter.name;
+    const auto found = std::ranges::find(of_test, native, &Parameter::name);
+    if (found == of_test.end())
+      throw InputError(fmt::format(
+          "{}: the mechanism '{}' is the test's own parameter '{}', which it does not have {}; take the mechanism out",
+          owner, factory.id, native, entry.layers.empty() ? "with these options" : "with \"layers\""));
+    Slot& slot = slots[static_cast<std::size_t>(found - of_test.begin())];
+    if (slot.setting)
+      throw InputError(fmt::format("{}: the mechanism '{}' is the parameter '{}' of {}; name one of the two",
+                                   slot.setting->pointer, factory.id, native, owner));
+    slot.declaration.name = fmt::format("{}{}.{}", prefix, layer.entry->name(), parameter.name);
+    slot.id.mechanism = layer.entry->name();
+    slot.id.name = parameter.name;
+    slot.setting = setting_of(layer.entry->parameters, parameter.name);
+    slot.null = std::numeric_limits<double>::quiet_NaN();
+    names.push_back(parameter.name);
+  }
+  refuse_unknown(layer.entry->parameters, names, fmt::format("mechanism '{}' of {}", factory.id, owner));
 }
 
 }  // namespace

@@ -49,10 +49,10 @@ void check_callable(const Factory& factory, std::string_view kind) {
 void check_callable(const MechanismFactory& factory, std::string_view kind) {
   const bool on_model = factory.stage < tunica::Stage::test;
   if (!factory.native.empty()) {
-    if (!on_model && !factory.wrap_model && !factory.wrap_test && factory.parameters.size() == 1) return;
+    if (!on_model && !factory.wrap_model && !factory.wrap_test && !factory.parameters.empty()) return;
     throw std::invalid_argument(
         fmt::format("the {} '{}' stands for a test's own parameter '{}'; such a mechanism acts at stage 'test', wraps "
-                    "nothing and has that one parameter; correct its factory before registering",
+                    "nothing and has that parameter first; correct its factory before registering",
                     kind, factory.id, factory.native));
   }
   if (on_model ? !factory.wrap_model : !factory.wrap_test) {

@@ -3,6 +3,7 @@
 // how a strip was cut. The parameters are declared as the tests declare them.
 #include <utility>
 
+#include "of_fields.hpp"
 #include "tunica/plugin.hpp"
 
 namespace {
@@ -137,4 +138,5 @@ TUNICA_PLUGIN("native_imperfections", TUNICA_PLUGIN_VERSION) {
   for (auto* const factory :
        {residual_stress, axial_stretch_error, tethering, layered_wall, geometry_error, specimen_misalignment})
     registry.add(factory());
+  for (MechanismFactory& factory : tunica::native::of_fields()) registry.add(std::move(factory));
 }

@@ -94,6 +94,13 @@ bool moves(const Specimen& specimen, const Edges& edges, std::size_t side, std::
 
 }  // namespace
 
+std::vector<std::size_t> moved_nodes(const Specimen& specimen, const Edges& edges, std::size_t side, std::size_t c) {
+  std::vector<std::size_t> found;
+  for (const std::size_t a : specimen.nodes_on(side))
+    if (moves(specimen, edges, side, c, a, true)) found.push_back(a);
+  return found;
+}
+
 std::vector<Mode> modes(const Specimen& specimen, const Edges& edges, std::size_t degree) {
   std::vector<Mode> found;
   for (std::size_t side = 0; side < 4; ++side)
@@ -102,8 +109,7 @@ std::vector<Mode> modes(const Specimen& specimen, const Edges& edges, std::size_
       const Strip strip(specimen, side, 1);
       const std::size_t order = edges[side][c] == Edge::uniform ? 0 : degree, first = found.size();
       found.resize(first + order + 1);
-      for (const std::size_t a : specimen.nodes_on(side)) {
-        if (!moves(specimen, edges, side, c, a, true)) continue;
+      for (const std::size_t a : moved_nodes(specimen, edges, side, c)) {
         const std::vector<double> P = legendre(order, strip.place(specimen.mesh().nodes[a])[0]);
         for (std::size_t k = 0; k <= order; ++k) found[first + k].emplace_back(2 * a + c, P[k]);
       }

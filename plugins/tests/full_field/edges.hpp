@@ -40,4 +40,7 @@ std::vector<double> beginning(const Specimen& specimen, const Edges& edges, cons
 /// one with a fixed side not at all.
 std::vector<Mode> modes(const Specimen& specimen, const Edges& edges, std::size_t degree);
 
+/// The nodes of a uniform or measured side that its modes of a component move.
+std::vector<std::size_t> moved_nodes(const Specimen& specimen, const Edges& edges, std::size_t side, std::size_t c);
+
 }  // namespace tunica::field

@@ -8,9 +8,10 @@
 namespace tunica::field {
 
 Equilibrium::Equilibrium(const Specimen& specimen, const Model& model, std::span<const double> parameters,
-                         std::array<double, 2> along, plane::Faces faces)
+                         std::array<double, 2> along, plane::Faces faces, std::vector<double> weights)
     : specimen_(specimen),
       membrane_(model, parameters, along, faces),
+      weights_(std::move(weights)),
       u_(specimen.dofs(), 0.0),
       K_(specimen.pattern()) {
   membrane_.resize(specimen.elements().points());
@@ -21,9 +22,17 @@ bool Equilibrium::evaluate(bool with_tangent, bool with_parameters) {
   for (const auto& F : F_)
     if (!(F[0] * F[3] - F[1] * F[2] > 0)) return false;
   if (!membrane_.evaluate(with_tangent, with_parameters)) return false;
+  weigh(membrane_.stress);
+  if (with_tangent) weigh(membrane_.tangent);
+  if (with_parameters) weigh(membrane_.stress_dp);
   f_.assign(specimen_.dofs(), 0);
   specimen_.elements().add_forces(F_, membrane_.stress, f_);
   return std::all_of(f_.begin(), f_.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// Values of one Gauss point after another, any number of times.
+void Equilibrium::weigh(std::vector<double>& of_points) const {
+  for (std::size_t i = 0; i < of_points.size() && !weights_.empty(); ++i) of_points[i] *= weights_[i % weights_.size()];
 }
 
 bool Equilibrium::factor(const std::vector<double>& direction) {
@@ -134,8 +143,21 @@ void Equilibrium::add_free(const Eigen::VectorXd& change, std::vector<double>& u
 
 void Equilibrium::by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) const {
   const std::size_t n = 3 * specimen_.elements().points();
+  by_stress(std::span(membrane_.stress_dp).subspan(j * n, n), du, df);
+}
+
+void Equilibrium::by_weight(std::span<const double> change, std::vector<double>& du, std::vector<double>& df) const {
+  std::vector<double> stress = membrane_.stress;
+  for (std::size_t i = 0; i < stress.size(); ++i) {
+    const std::size_t point = i % change.size();
+    stress[i] *= change[point] / (weights_.empty() ? 1.0 : weights_[point]);
+  }
+  by_stress(stress, du, df);
+}
+
+void Equilibrium::by_stress(std::span<const double> change, std::vector<double>& du, std::vector<double>& df) const {
   df.assign(u_.size(), 0);
-  specimen_.elements().add_forces(F_, std::span(membrane_.stress_dp).subspan(j * n, n), df);
+  specimen_.elements().add_forces(F_, change, df);
   du.assign(u_.size(), 0);
   add_free(-solve(df), du);
   specimen_.elements().add_force_change(F_, membrane_, du, df);
@@ -143,7 +165,7 @@ void Equilibrium::by_parameter(std::size_t j, std::vector<double>& du, std::vect
 
 void Equilibrium::by_edge(const Mode& mode, std::vector<double>& du, std::vector<double>& df) const {
   du.assign(u_.size(), 0);
-  for (const auto& [dof, value] : mode) du[dof] = value;
+  for (const auto& [dof, value] : mode) du[dof] += value;
   df.assign(u_.size(), 0);
   specimen_.elements().add_force_change(F_, membrane_, du, df);
   add_free(-solve(df), du);

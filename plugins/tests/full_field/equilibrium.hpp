@@ -17,8 +17,9 @@ namespace tunica::field {
 /// Newton's method. Not shared between threads.
 class Equilibrium {
  public:
+  /// `weights`: thickness or stiffness at each Gauss point over that of the specimen; empty = 1.
   Equilibrium(const Specimen& specimen, const Model& model, std::span<const double> parameters,
-              std::array<double, 2> along, plane::Faces faces);
+              std::array<double, 2> along, plane::Faces faces, std::vector<double> weights = {});
 
   /// Moves to the next step: `prescribed` by dof, read where held. The way is halved where Newton's method fails. Empty
   /// where it arrived, else what went wrong.
@@ -48,6 +49,8 @@ class Equilibrium {
   [[nodiscard]] const std::vector<plane::Gradient>& gradients() const { return F_; }
   /// After linearise(): derivatives of displacements and forces by parameter j, by dof.
   void by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) const;
+  /// The same by a weight that changes so at every Gauss point.
+  void by_weight(std::span<const double> change, std::vector<double>& du, std::vector<double>& df) const;
   /// The same by an edge that moves in this way.
   void by_edge(const Mode& mode, std::vector<double>& du, std::vector<double>& df) const;
 
@@ -58,11 +61,14 @@ class Equilibrium {
   bool evaluate(bool with_tangent, bool with_parameters);
   bool factor(const std::vector<double>& direction);
   bool newton(std::vector<double> direction);
+  void weigh(std::vector<double>& of_points) const;
+  void by_stress(std::span<const double> change, std::vector<double>& du, std::vector<double>& df) const;
   [[nodiscard]] Eigen::VectorXd solve(const std::vector<double>& of_dofs) const;
   void add_free(const Eigen::VectorXd& change, std::vector<double>& u) const;
 
   const Specimen& specimen_;
-  plane::Membrane membrane_;
+  plane::Membrane membrane_;  ///< its stress and derivatives with the weights
+  std::vector<double> weights_;
   std::vector<double> u_, f_, by_direction_;
   std::vector<plane::Gradient> F_, linearised_F_;
   std::vector<double> linearised_stress_;

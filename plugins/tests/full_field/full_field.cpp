@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "equilibrium.hpp"
+#include "imperfections.hpp"
 #include "prepared.hpp"
 #include "step_solver.hpp"
 #include "tunica/detail/compressible_prediction.hpp"
@@ -26,11 +27,14 @@ class FullField final : public Test {
       : thickness_(setup.options.number("thickness")),
         plane_strain_(setup.options.text("state") == "plane_strain"),
         modified_newton_(setup.options.text("method") == "modified_newton"),
-        prepared_(prepared(setup)) {
+        prepared_(prepared(setup)),
+        flaws_(flaws_between(prepared_->edges)) {
     if (!(thickness_ > 0))
       throw InputError(fmt::format("full_field: \"thickness\" is {:g} mm; give one above 0", thickness_));
     const double turn = setup.options.number("material_angle") * std::numbers::pi / 180;
     along_ = {std::cos(turn), -std::sin(turn)};
+    for (const FlawParameter& flaw : flaws_) description_.parameters.push_back(flaw.parameter);
+    description_.nulls.assign(flaws_.size(), 0.0);
     description_.costly = !modified_newton_;
     description_.volume = plane_strain_ ? TestDescription::Volume::free : TestDescription::Volume::either;
   }
@@ -86,14 +90,15 @@ class FullField final : public Test {
   Status simulate(const TestInput& input, const TestOutput& output, const Meshed& on, plane::Faces faces,
                   bool nearly) const {
     const bool wants_parameters = !output.jacobian.empty();
-    Equilibrium body(on.specimen(), input.model, input.model_parameters, along_, faces);
+    const FlawedSheet sheet(on.specimen(), prepared_->edges, on.modes(), flaws_, input.test_parameters);
+    Equilibrium body(on.specimen(), input.model, input.model_parameters, along_, faces, sheet.weights());
     const std::size_t size = prepared_->rows.rows().count * prepared_->rows.channels().size();
     std::fill(output.values.begin(), output.values.end(), 0.0);
     std::fill(output.jacobian.begin(), output.jacobian.end(), 0.0);
     std::vector<double> du, df;
     for (std::size_t k = 0; k < prepared_->rows.steps().size(); ++k) {
       const FieldRows::Step& step = prepared_->rows.steps()[k];
-      StepSolver solver(on, k, body);
+      StepSolver solver(on, k, body, &sheet);
       const auto problem = nearly ? solver.nearly_settle(wants_parameters) : solver.settle(wants_parameters);
       if (problem) return Status::failed(fmt::format("full_field: step {:g}: {}", step.value, *problem));
       if (!output.values.empty()) on.read(step, solver.displacements(), solver.forces(), thickness_, output.values);
@@ -101,6 +106,9 @@ class FullField final : public Test {
         solver.by_parameter(j, du, df);
         on.read(step, du, df, thickness_, output.jacobian.subspan(j * size, size));
       }
+      for (std::size_t q = 0; wants_parameters && q < flaws_.size(); ++q)
+        if (solver.by_flaw(q, du, df))
+          on.read(step, du, df, thickness_, output.jacobian.subspan((input.model_parameters.size() + q) * size, size));
     }
     return {};
   }
@@ -109,8 +117,15 @@ class FullField final : public Test {
   bool plane_strain_, modified_newton_;
   std::array<double, 2> along_{};
   std::shared_ptr<const Prepared> prepared_;
+  std::vector<FlawParameter> flaws_;
   TestDescription description_;
 };
+
+std::vector<Parameter> own_parameters() {
+  std::vector<Parameter> found;
+  for (const FlawParameter& flaw : all_flaws()) found.push_back(flaw.parameter);
+  return found;
+}
 
 TestFactory factory() {
   const auto force = [](const char* name, const char* side) {
@@ -149,7 +164,7 @@ TestFactory factory() {
        force("force_bottom", "bottom"),
        force("force_top", "top")},
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<FullField>(setup); },
-      {},
+      own_parameters(),
       false,
       [](const Options& options) -> std::optional<StandIn> {
         StandIn cheaper{"full_field", options};

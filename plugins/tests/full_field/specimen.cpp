@@ -42,7 +42,7 @@ struct Mapped : Functions {
 };
 
 constexpr double sixth = 1.0 / 6;
-constexpr std::array<Vector, 3> gauss_places{{{sixth, sixth}, {4 * sixth, sixth}, {sixth, 4 * sixth}}};
+constexpr std::array<Vector, 3> in_triangle{{{sixth, sixth}, {4 * sixth, sixth}, {sixth, 4 * sixth}}};
 constexpr double allowance = 0.05;  ///< of a triangle, by which a point may lie outside
 
 }  // namespace
@@ -88,7 +88,7 @@ void Specimen::make_elements() {
     // A curved edge leaves the box of its nodes by less than this margin.
     const double margin = 2 * allowance * std::max(box[1] - box[0], box[3] - box[2]);
     boxes_.push_back({box[0] - margin, box[1] + margin, box[2] - margin, box[3] + margin});
-    for (const auto& [s, t] : gauss_places) {
+    for (const auto& [s, t] : in_triangle) {
       const Mapped at(mesh_, triangle, s, t);
       if (!(at.det() > 0))
         throw InputError(fmt::format(
@@ -100,6 +100,7 @@ void Specimen::make_elements() {
       }
       point.weight = at.det() * sixth;
       elements_.gauss.push_back(point);
+      gauss_places_.push_back({at.X, at.Y});
     }
   }
 }

@@ -41,6 +41,7 @@ class Specimen {
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] const plane::Elements<6, 3>& elements() const { return elements_; }
+  [[nodiscard]] const std::vector<Vector>& gauss_places() const { return gauss_places_; }  ///< unloaded, mm
   [[nodiscard]] std::size_t dofs() const { return 2 * mesh_.nodes.size(); }
   [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }  ///< dofs, by unknown
   [[nodiscard]] bool held(std::size_t dof) const { return unknown_[dof] == none; }
@@ -49,6 +50,7 @@ class Specimen {
   /// From a side to the nearest of these points, along its normal.
   [[nodiscard]] double gap(std::size_t side, const std::vector<Vector>& points) const;
   [[nodiscard]] double extent(std::size_t axis) const { return high_[axis] - low_[axis]; }
+  [[nodiscard]] double middle(std::size_t axis) const { return (low_[axis] + high_[axis]) / 2; }  ///< of the box
   /// A matrix with the pattern of the stiffness over the unknowns, lower triangle.
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
   /// Empty where the point lies farther outside than a twentieth of a triangle.
@@ -58,6 +60,7 @@ class Specimen {
   void make_elements();
   Mesh mesh_;
   plane::Elements<6, 3> elements_;
+  std::vector<Vector> gauss_places_;
   Vector low_{}, high_{};
   std::vector<std::array<double, 4>> boxes_;  ///< of each triangle with a margin: x from, to, y from, to
   std::array<std::vector<std::size_t>, 4> sides_;

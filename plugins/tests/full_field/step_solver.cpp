@@ -32,7 +32,8 @@ StepSolver::StepSolver(const Meshed& on, std::size_t step, Equilibrium& body, co
       step_(step),
       body_(body),
       flaws_(flaws),
-      edges_(flaws != nullptr ? flaws->modes() : on.modes(), [this](const std::vector<double>& u) { return on_.at_points(this->step(), u); }),
+      edges_(flaws != nullptr ? flaws->modes() : on.modes(),
+             [this](const std::vector<double>& u) { return on_.at_points(this->step(), u); }),
       measured_(FieldRows::measured(on.rows().steps()[step])) {}
 
 Eigen::VectorXd StepSolver::rest(const std::vector<double>& u) const { return measured_ - on_.at_points(step(), u); }

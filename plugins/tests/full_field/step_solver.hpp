@@ -7,6 +7,7 @@
 
 #include "edge_fit.hpp"
 #include "equilibrium.hpp"
+#include "imperfections.hpp"
 #include "meshed.hpp"
 
 namespace tunica::field {
@@ -15,8 +16,8 @@ namespace tunica::field {
 /// shared between threads.
 class StepSolver {
  public:
-  /// Keeps `on` and `body` by reference; `step` counts from 0.
-  StepSolver(const Meshed& on, std::size_t step, Equilibrium& body);
+  /// Keeps `on`, `body` and `flaws` by reference; `step` counts from 0.
+  StepSolver(const Meshed& on, std::size_t step, Equilibrium& body, const FlawedSheet* flaws = nullptr);
 
   /// Finite elements: the equilibrium itself with its derivatives, from the measured displacements, and where that
   /// fails along the way from the step before. Empty where it is found, else what went wrong.
@@ -32,12 +33,15 @@ class StepSolver {
   [[nodiscard]] const std::vector<double>& displacements() const { return u_; }  ///< by dof, mm
   [[nodiscard]] const std::vector<double>& forces() const { return f_; }         ///< by dof, per thickness, kPa·mm
   void by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) const;
+  /// The same by flaw q; false where it changes nothing.
+  bool by_flaw(std::size_t q, std::vector<double>& du, std::vector<double>& df) const;
 
  private:
   struct Change {
     std::vector<double> u, f;  ///< by dof
   };
   [[nodiscard]] Change next() const;
+  [[nodiscard]] std::vector<double> with_flaws(std::vector<double> u) const;
   bool from_measured(bool precisely, bool by_parameters);
   [[nodiscard]] const FieldRows::Step& step() const { return on_.rows().steps()[step_]; }
   [[nodiscard]] Eigen::VectorXd rest(const std::vector<double>& u) const;
@@ -45,6 +49,7 @@ class StepSolver {
   const Meshed& on_;
   std::size_t step_;
   Equilibrium& body_;
+  const FlawedSheet* flaws_;
   EdgeFit edges_;
   Eigen::VectorXd measured_;
   std::vector<double> u_, f_;
