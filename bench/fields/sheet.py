@@ -23,13 +23,13 @@ class Sheet:
         """`around`: elements along each of the four sides; `outwards`: from the hole to the side."""
         rows, columns = 2 * outwards + 1, 8 * around
         turn = np.arange(columns) / columns * 4  # side and place along it
-        side, s = turn.astype(int), 2 * (turn % 1) - 1
+        side, s = turn.astype(int), np.sin(np.pi * (turn % 1 - 0.5))  # closer to the corners, where stress is singular
         a, b = WIDTH / 2, HEIGHT / 2
         outer = np.choose(side[:, None], [np.c_[a + 0 * s, b * s], np.c_[-a * s, b + 0 * s], np.c_[-a + 0 * s, -b * s],
                                           np.c_[a * s, -b + 0 * s]])
         angle = (turn - 0.5) * np.pi / 2
         inner = RADIUS * np.c_[np.cos(angle), np.sin(angle)]
-        share = (np.arange(rows) / (rows - 1)) ** 1.3
+        share = 0.5 - 0.5 * np.cos(np.pi * np.arange(rows) / (rows - 1))
         self.nodes = (inner[None] + share[:, None, None] * (outer - inner)[None]).reshape(-1, 2)
         self.elements = np.array([[(2 * r + i) * columns + (2 * c + j) % columns for i in range(3) for j in range(3)]
                                   for r in range(outwards) for c in range(columns // 2)])

@@ -126,9 +126,11 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, OnATest, ::testing::ValuesIn([] {
                              if (entry.factory.stage < Stage::test) continue;
                              std::vector<std::string> types = entry.factory.applies_to;
                              if (types.empty()) types = {"uniaxial", "thick_wall_pressurisation"};
-                             // Sheets, and what needs a clock, are held to the same in record_errors_test.cpp.
+                             // Sheets, and what needs a clock, are held to the same in record_errors_test.cpp, and
+                             // measured fields in tests/full_field.
                              for (const std::string& type : types)
-                               if (type != "biaxial" && id != "channel_lag") cases.emplace_back(id, type);
+                               if (type != "biaxial" && type != "full_field" && id != "channel_lag")
+                                 cases.emplace_back(id, type);
                            }
                            return cases;
                          }()),

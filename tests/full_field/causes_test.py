@@ -1,0 +1,27 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""causes_test.py TUNICA: sheets of bench/fields/sheet.py with one cause and noise of 20 um (seeds 1 and 2). The diagnosis names
+it, and finds its amplitude to a quarter; a sheet without a cause raises no alarm, which it does with a chance of 5 %."""
+import pathlib
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).parent / "../../bench/fields"))
+import causes
+
+HIDDEN = [(None, 0.0, 0.0), ("stiffer_half", 0.04, 0.0), ("clamp_slip", 0.012, 0.0), ("oblique_pull", 0.6, 0.0)]
+
+with tempfile.TemporaryDirectory() as scratch:
+    bench = causes.Bench(pathlib.Path(sys.argv[1]), pathlib.Path(scratch), 0.02, (8, 6))
+    for seed, (cause, amplitude, direction) in enumerate(HIDDEN, 1):
+        folder = pathlib.Path(scratch) / str(cause)
+        bench.write(folder, bench.frames(cause, amplitude, direction), "clamped", seed)
+        found = bench.call(folder, "diagnose", "--quick")["diagnosis"]
+        if cause is None:
+            assert found["verdict"] == "nothing_detected", found["verdict"]
+            continue
+        assert [one["id"] for one in found["causes"]] == [cause], (cause, found["verdict"], found["causes"])
+        size = found["causes"][0]["amplitude"]["value"]
+        assert 0.75 < abs(size) / amplitude < 1.25, (cause, amplitude, found["causes"])
+        print(cause, amplitude, size, found["verdict"])
