@@ -7,80 +7,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/units.hpp"
-#include "plugins/guarded.hpp"
-#include "support/loaded.hpp"
+#include "sheet.hpp"
 #include "support/strip.hpp"
 
 namespace tunica::testing::full_field {
 namespace {
 
 using ::testing::HasSubstr;
-using Point = std::array<double, 2>;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// Points of steps with their displacements, then one row of forces a step.
-struct Measured {
-  std::vector<double> step, x, y, ux, uy;
-  std::vector<std::string> channels = {"ux", "uy", "force_left", "force_right", "force_bottom", "force_top"};
-  [[nodiscard]] std::size_t points() const { return static_cast<std::size_t>(std::count(x.begin(), x.end(), x[0])); }
-};
-
-struct Plate {
-  std::string mesh = R"({"size": 2})", shape = R"({"rectangle": [10, 6], "corner": [-3, 1]})",
-              boundary = R"({"left": "measured", "right": "measured", "bottom": "measured", "top": "measured"})",
-              state = "plane_stress";
-  std::string unseen = "refuse";
-  double angle = 0;
-  std::int64_t smoothing = 2;
-  std::string method = "finite_elements";
-};
-
-/// `field` gives the displacement of a point at a load from 0 to 1.
-template <class Field>
-Measured measure(const std::vector<double>& loads, const Field& field, const Point& low, const Point& high,
-                 std::size_t count = 13) {
-  Measured all;
-  for (const double load : loads)
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t j = 0; j < count; ++j) {
-        const auto place = [&](std::size_t axis, std::size_t k) {
-          return low[axis] + (high[axis] - low[axis]) * static_cast<double>(k) / static_cast<double>(count - 1);
-        };
-        const Point at{place(0, i), place(1, j)}, u = field(at, load);
-        all.step.push_back(load);
-        all.x.push_back(at[0]);
-        all.y.push_back(at[1]);
-        all.ux.push_back(u[0]);
-        all.uy.push_back(u[1]);
-      }
-  for (const double load : loads) {
-    all.step.push_back(load);
-    for (auto* column : {&all.x, &all.y, &all.ux, &all.uy}) column->push_back(nan);
-  }
-  return all;
-}
-
-std::unique_ptr<Test> make(const Plate& of, const Measured& measured) {
-  TestSetup setup;
-  for (const auto& [name, value] : {std::pair("mesh", of.mesh), std::pair("shape", of.shape),
-                                    std::pair("boundary", of.boundary), std::pair("state", of.state)})
-    setup.options.set(name, value);
-  setup.options.set("unseen_sides", of.unseen);
-  setup.options.set("thickness", 2.0);
-  setup.options.set("material_angle", of.angle);
-  setup.options.set("smoothing", of.smoothing);
-  setup.options.set("method", of.method);
-  setup.rows.count = measured.step.size();
-  setup.rows.abscissae = {{"step", measured.step}, {"x", measured.x}, {"y", measured.y}};
-  setup.rows.channels = measured.channels;
-  const std::vector<double> nothing(measured.step.size(), nan);
-  for (const std::string& channel : measured.channels)
-    setup.measured.emplace_back(channel == "ux" ? measured.ux : channel == "uy" ? measured.uy : nothing);
-  setup.unit_factor = [](std::string_view from, std::string_view to) { return data::convert(1, from, to); };
-  return plugins::create(catalogue().tests().at("full_field"), setup);
-}
 
 /// F = [[1 + 0.2, 0.1], [0.05, 1 − 0.08]] at the full load.
 constexpr std::array<double, 4> strain{0.2, 0.1, 0.05, -0.08};
@@ -236,127 +169,6 @@ TEST(FullField, DerivativesAreThoseOfDifferences) {
         EXPECT_LT(worst / scale, 1e-4) << one.state << one.angle << " channel " << k << " parameter " << j;
       }
     }
-  }
-}
-
-constexpr const char* clamped = R"({"left": "fixed", "right": {"x": "uniform", "y": "fixed"}})";
-
-std::vector<std::string> names_of(const Test& test) {
-  std::vector<std::string> names;
-  for (const Parameter& parameter : test.describe().parameters) names.push_back(parameter.name);
-  return names;
-}
-
-// A flaw of an edge is a parameter where the edge could show it: not where it is fitted freely, nor in half a specimen.
-TEST(FullField, HasTheFlawsThatItsEdgesCanShow) {
-  Measured measured = measure({1}, affine, {-3, 1}, {7, 7});
-  measured.channels = {"ux", "uy"};
-  const auto with = [&](const char* boundary) {
-    Plate setup;
-    setup.boundary = boundary;
-    return names_of(*make(setup, measured));
-  };
-  const std::vector<std::string> uneven{"thickness_gradient", "thickness_gradient_direction", "stiffer_half",
-                                        "stiffer_half_direction"};
-  const auto and_uneven = [&](std::vector<std::string> names) {
-    names.insert(names.end(), uneven.begin(), uneven.end());
-    return names;
-  };
-  EXPECT_EQ(with(R"({"left": "measured", "right": "measured"})"), uneven);
-  EXPECT_EQ(with(clamped), and_uneven({"clamp_slip", "grip_tilt", "oblique_pull"}));
-  EXPECT_EQ(with(R"({"left": "fixed", "right": "measured"})"), and_uneven({"clamp_slip"}));
-  EXPECT_EQ(with(R"({"left": {"x": "uniform", "y": "fixed"}, "right": {"x": "uniform", "y": "measured"}})"),
-            and_uneven({"grip_tilt", "oblique_pull"}));
-  EXPECT_EQ(with(R"({"left": {"x": "fixed"}, "right": {"x": "uniform"}, "bottom": {"y": "fixed"}})"),
-            and_uneven({"grip_tilt"}));
-}
-
-/// A sheet drawn out between clamps, as a material has it that has these flaws.
-struct Flawed {
-  Measured measured;
-  std::unique_ptr<Model> model = make_model("neo_hooke");
-  std::vector<double> p{100};
-  std::unique_ptr<Test> test;
-  explicit Flawed(const std::vector<double>& flaws) {
-    const auto pulled = [](const Point& at, double load) -> Point { return {0.2 * load * (at[0] + 3), 0}; };
-    measured = measure({0.5, 1}, pulled, {-3, 1}, {7, 7}, 9);
-    measured.channels = {"ux", "uy", "force_left", "force_right"};
-    Plate setup;
-    setup.boundary = clamped;
-    test = make(setup, measured);
-    const std::vector<double> field = values(flaws);
-    for (std::size_t i = 0; i < measured.step.size(); ++i) {
-      if (!std::isfinite(measured.x[i])) continue;
-      measured.ux[i] = field[i];
-      measured.uy[i] = field[measured.step.size() + i];
-    }
-    test = make(setup, measured);
-  }
-  [[nodiscard]] std::vector<double> values(const std::vector<double>& flaws, std::span<double> jacobian = {}) const {
-    std::vector<double> found(4 * measured.step.size());
-    const Status status = test->predict({*model, p, flaws}, {found, jacobian, {}, {}});
-    EXPECT_TRUE(status.ok()) << status.reason();
-    return found;
-  }
-};
-
-// At rest, and with all flaws at once.
-TEST(FullField, DerivativesByFlawsAreThoseOfDifferences) {
-  const std::vector<double> somewhere{0.03, -0.05, 4, 0.2, 30, -0.15, 70};
-  const std::size_t count = somewhere.size();
-  for (const std::vector<double>& flaws : {std::vector<double>(count, 0.0), somewhere}) {
-    const Flawed sheet(flaws);
-    const std::size_t n = sheet.measured.step.size(), size = 4 * n;
-    std::vector<double> jacobian((1 + count) * size);
-    EXPECT_EQ(sheet.values(flaws, jacobian).size(), size);
-    for (std::size_t q = 0; q < count; ++q) {
-      std::vector<double> ahead = flaws, behind = flaws;
-      const double h = std::abs(somewhere[q]) * 1e-3;
-      ahead[q] += h;
-      behind[q] -= h;
-      const std::vector<double> above = sheet.values(ahead), below = sheet.values(behind);
-      for (std::size_t k = 0; k < 4; ++k) {
-        double scale = 0, worst = 0;
-        for (std::size_t i = k * n; i < (k + 1) * n; ++i) {
-          const double difference = (above[i] - below[i]) / (2 * h);
-          scale = std::max(scale, std::abs(difference));
-          worst = std::max(worst, std::abs(difference - jacobian[(1 + q) * size + i]));
-        }
-        EXPECT_LE(worst, 2e-4 * scale + 1e-7) << names_of(*sheet.test)[q] << " channel " << k << " of " << flaws[q];
-        // A direction has no effect at rest.
-        if (k < 2) {
-          EXPECT_EQ(scale > 1e-6, flaws[q] != 0 || (q != 4 && q != 6)) << names_of(*sheet.test)[q] << scale;
-        }
-      }
-    }
-  }
-}
-
-// The state of a sheet between sliding edges is homogeneous, however its thickness 1 + g ξ changes across the pull, and
-// ∫ h P dy = P. So it is where halves differ, but for the integral over elements that the border crosses.
-TEST(FullField, AnUnevenSheetBetweenSlidingEdgesKeepsItsStateAndLoad) {
-  const auto stretched = [](const Point& at, double load) -> Point { return {0.2 * load * (at[0] + 3), 0}; };
-  Measured measured = measure({0.5, 1}, stretched, {-3, 1}, {7, 7});
-  measured.channels = {"ux", "uy", "force_right"};
-  Plate setup;
-  setup.boundary = R"({"left": {"x": "fixed"}, "right": {"x": "uniform"}, "bottom": {"y": "fixed"}})";
-  const auto test = make(setup, measured);
-  ASSERT_EQ(names_of(*test).front(), "grip_tilt");
-  const auto model = make_model("neo_hooke");
-  const std::vector<double> p{100};
-  const std::size_t n = measured.step.size();
-  const auto values = [&](const std::vector<double>& flaws) {
-    std::vector<double> found(3 * n);
-    const Status status = test->predict({*model, p, flaws}, {found, {}, {}, {}});
-    EXPECT_TRUE(status.ok()) << status.reason();
-    return found;
-  };
-  const std::vector<double> even = values(test->describe().nulls);
-  for (const auto& [flaws, exactly] : {std::pair(std::vector<double>{0, 0.3, 90, 0, 0}, 1e-8),
-                                       std::pair(std::vector<double>{0, 0, 0, 0.4, -90}, 2e-3)}) {
-    const std::vector<double> uneven = values(flaws);
-    for (std::size_t i = 0; i < 2 * n; ++i) EXPECT_NEAR(uneven[i], even[i], exactly);
-    EXPECT_NEAR(uneven[3 * n - 1] / even[3 * n - 1], 1, exactly);
   }
 }
 
