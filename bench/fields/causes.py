@@ -14,7 +14,9 @@ import resource
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import sheet
+from noise import errors
 
 PULLS = (2.0, 5.0, 8.0)  # mm, of 24
 SPACING = 1.8  # mm, of the points
@@ -38,17 +40,17 @@ class Bench:
     def frames(self, cause, amplitude, direction):
         return self.sheet.frames(PULLS, cause, amplitude, direction)
 
-    def write(self, folder, frames, boundary, seed=None):
-        """The files of a case; without a seed without noise."""
+    def write(self, folder, frames, boundary, seed=None, subset=0):
+        """The files of a case; without a seed without noise. `subset`: width of what points share, mm."""
         folder.mkdir(parents=True, exist_ok=True)
         noise = random.Random(seed)
         sigma, share = (0, 0) if seed is None else (self.sigma, 0.005)
         field, load = ["step,x [mm],y [mm],ux [mm],uy [mm]"], ["step,load [mN]"]
         for step, (u, force) in enumerate(frames, 1):
             load.append(f"{step},{force * (1 + noise.gauss(0, share))!r}")
-            for k in self.points:
-                (x, y), (ux, uy) = self.sheet.nodes[k], u[k]
-                field.append(",".join(map(repr, map(float, (step, x, y, ux + noise.gauss(0, sigma), uy + noise.gauss(0, sigma))))))
+            places = self.sheet.nodes[self.points]
+            moved = u[self.points] + np.transpose([errors(places, sigma, subset, noise) for _ in range(2)])
+            field += [",".join(repr(float(value)) for value in (step, *place, *way)) for place, way in zip(places, moved)]
         (folder / "field.csv").write_text("\n".join(field) + "\n", encoding="utf-8")
         (folder / "load.csv").write_text("\n".join(load) + "\n", encoding="utf-8")
         test = {"type": "full_field", "thickness": f"{sheet.THICKNESS} mm", "mesh": {"file": str(self.mesh)},

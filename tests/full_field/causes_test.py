@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """causes_test.py TUNICA: sheets of bench/fields/sheet.py with one cause and noise of 20 um (seeds 1 and 2). The diagnosis names
-it, and finds its amplitude to a quarter; a sheet without a cause raises no alarm, which it does with a chance of 5 %."""
+it, and finds its amplitude to a quarter; a sheet without a cause raises no alarm, which it does with a chance of 5 %. A fit warns
+where points err together, and not where each errs by itself (chance of either: below 1e-4)."""
 import pathlib
 import sys
 import tempfile
@@ -19,6 +20,11 @@ with tempfile.TemporaryDirectory() as scratch:
         bench.write(folder, bench.frames(cause, amplitude, direction), "clamped", seed)
         found = bench.call(folder, "diagnose", "--quick")["diagnosis"]
         if cause is None:
+            for subset in (0, 6):
+                again = folder / str(subset)
+                bench.write(again, bench.frames(None, 0, 0), "clamped", seed, subset)
+                warnings = bench.call(again, "run")["warnings"]
+                assert any("err together" in one for one in warnings) == (subset > 0), (subset, warnings)
             assert found["verdict"] == "nothing_detected", found["verdict"]
             continue
         assert [one["id"] for one in found["causes"]] == [cause], (cause, found["verdict"], found["causes"])

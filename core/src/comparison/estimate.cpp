@@ -8,6 +8,7 @@
 
 #include "assembly/quality.hpp"
 #include "comparison/hold_out.hpp"
+#include "comparison/neighbours.hpp"
 #include "plugins/limited_work.hpp"
 #include "text/lists.hpp"
 #include "uncertainty/identifiability.hpp"
@@ -256,10 +257,12 @@ void add_size(const experiment::Experiment& experiment, const assembly::Assembly
 }
 
 void add_quality(const experiment::Experiment& experiment, const assembly::Assembly& assembly,
-                 const execution::RealisationResult& best, RunSummary& summary) {
+                 const execution::RealisationResult& best, RunSummary& summary,
+                 std::vector<execution::Warning>& warnings) {
   std::vector<double> predictions(assembly.layout().prediction_count);
   auto workspace = assembly.evaluator().make_workspace();
   if (!assembly.evaluator().predict(best.best.parameters, predictions, {}, *workspace).ok()) return;
+  warn_of_neighbours(assembly, predictions, summary.label, warnings);
   for (const auto kind : {assembly::NoiseKind::stated, assembly::NoiseKind::estimated}) {
     auto& own = kind == assembly::NoiseKind::stated ? summary.misfit : summary.misfit_estimated;
     if (const assembly::Misfit found = misfit(assembly, kind, predictions); found.judged()) own = found;
@@ -317,7 +320,7 @@ void estimate(const experiment::Experiment& experiment, const assembly::Assembly
               std::vector<execution::Warning>& warnings, plugins::Clock::time_point deadline) {
   evaluate_again(assembly, best, summary, warnings);
   add_parameters(assembly, best, all, summary);
-  add_quality(experiment, assembly, best, summary);
+  add_quality(experiment, assembly, best, summary, warnings);
   add_noise(assembly, summary);
   {
     const plugins::LimitedWork work("summary", deadline);
