@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include <Eigen/Dense>
 #include <gmock/gmock.h>
@@ -37,14 +38,19 @@ double dense(const Curve& bed, const Eigen::VectorXd& r, const Eigen::MatrixXd& 
   double total = 0, weights = 0;
   const Eigen::MatrixXd Q = base.householderQr().householderQ() * Eigen::MatrixXd::Identity(r.size(), base.cols());
   for (const double tau : {0.0025, 0.005, 0.01, 0.02, 0.04, 0.08, 0.16, 0.32})
-    for (int roughness = 0; roughness < 3; ++roughness) {
+    for (const auto& roughness : std::array<std::function<double(double)>, 6>{
+             [](double k) { return 1 / ((1 + k) * (1 + k)); }, [](double k) { return std::pow(1 + k, -4); },
+             [](double k) { return std::exp(-1.5 * k); }, [](double k) { return std::exp(-k * k / (2 * 1.5 * 1.5)); },
+             [](double k) { return std::exp(-k * k / (2 * 3 * 3)); },
+             [](double k) { return std::exp(-k * k / (2 * 6 * 6)); }}) {
       Eigen::VectorXd D(B.cols());
+      double height = 0;
       for (Eigen::Index k = 0; k < B.cols(); ++k) {
         const double degree = shapes.degree[static_cast<std::size_t>(k)];
-        D[k] = roughness == 0   ? std::pow(1 + degree, -2)
-               : roughness == 1 ? std::pow(1 + degree, -4)
-                                : std::exp(-1.5 * degree);
+        D[k] = roughness(degree);
+        height += D[k] / (2 * degree + 1);
       }
+      D /= height;
       Eigen::MatrixXd S = tau * tau * B * D.asDiagonal() * B.transpose() + added * added.transpose();
       S.diagonal().array() += 1;
       const Eigen::MatrixXd inverse = S.inverse();

@@ -114,7 +114,10 @@ std::vector<Lead> leads_of(const diagnosis::Analysis& analysis, const discovery:
   const diagnosis::Hypotheses& hypotheses = analysis.hypotheses;
   std::vector<Lead> leads;
   const double half = kinds.empty() ? 0 : std::log(0.5);
-  const double each = -std::log(std::max<double>(1, static_cast<double>(hypotheses.candidates.size())));
+  // Mechanisms that cannot act here take no share of the prior.
+  const auto looked_for = std::count_if(hypotheses.candidates.begin(), hypotheses.candidates.end(),
+                                        [](const diagnosis::Candidate& one) { return !one.hypotheses.empty(); });
+  const double each = -std::log(std::max<double>(1, static_cast<double>(looked_for)));
   for (const diagnosis::Direction& direction : hypotheses.directions) {
     const diagnosis::Hypothesis& hypothesis = hypotheses.hypothesis(direction);
     if (hypothesis.mechanism->stage == Stage::data && !direction.row && diagnosis::takes(*hypothesis.mechanism, "rows"))

@@ -24,11 +24,12 @@ UnlistedMisfit::UnlistedMisfit(const diagnosis::Evidence& evidence, unsigned deg
   const Eigen::MatrixXd squares = columns_.transpose() * columns_;
   std::vector<double> logs;
   for (const double tau : unlisted::sizes)
-    for (int roughness = 0; roughness < unlisted::roughness_kinds; ++roughness) {
+    for (std::size_t roughness = 0; roughness < unlisted::falls.size(); ++roughness) {
+      const unlisted::Variances D(roughness, degree);
       Prior prior;
       prior.scale.resize(columns_.cols());
       for (Eigen::Index k = 0; k < columns_.cols(); ++k)
-        prior.scale[k] = tau * std::sqrt(unlisted::variance(roughness, shapes.degree[static_cast<std::size_t>(k)]));
+        prior.scale[k] = tau * std::sqrt(D.of(shapes.degree[static_cast<std::size_t>(k)]));
       Eigen::MatrixXd inner = prior.scale.asDiagonal() * squares * prior.scale.asDiagonal();
       inner.diagonal().array() += 1;
       prior.factor.compute(inner);

@@ -15,9 +15,8 @@ namespace tunica::budget {
 ///   r ~ N(0, Σ),  Σ = I + τ² B D Bᵀ,
 ///
 /// B smooth shapes of each curve (assembly/curve_shapes.hpp), whitened and as high as the range of its channel; τ the
-/// size as a share of the range; D_k the roughness, (1 + k)⁻², (1 + k)⁻⁴ or exp(−1.5 k) for degree k. Size and
-/// roughness are summed over and not estimated: with estimates, ranks go by roughness. ln τ is Gaussian about ln 0.02
-/// with standard deviation 0.7, because no model of a tissue follows real curves better than 1–3 %.
+/// root mean square as a share of the range; D_k the roughness for degree k. unlisted_prior.hpp has both and what is
+/// believed of them. They are summed over and not estimated: with estimates, ranks go by roughness.
 class UnlistedMisfit {
  public:
   /// Shapes up to the degree, a third as many as rows at most; noise so many times as large as it is said to be.

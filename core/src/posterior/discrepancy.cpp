@@ -107,10 +107,11 @@ Discrepancy::Discrepancy(const assembly::Assembly& assembly, const assembly::Whi
   const double rows = static_cast<double>(fitted.rows());
   double weights = 0;
   for (const double size : unlisted::sizes) weights += std::exp(unlisted::log_weight(size));
-  for (int roughness = 0; roughness < unlisted::roughness_kinds; ++roughness) {
+  const double highest = shapes.degree.empty() ? 0 : *std::ranges::max_element(shapes.degree);
+  for (std::size_t roughness = 0; roughness < unlisted::falls.size(); ++roughness) {
+    const unlisted::Variances of_kind(roughness, static_cast<unsigned>(highest));
     Vector D(shapes.columns.cols());
-    for (Eigen::Index k = 0; k < D.size(); ++k)
-      D[k] = unlisted::variance(roughness, shapes.degree[static_cast<std::size_t>(k)]);
+    for (Eigen::Index k = 0; k < D.size(); ++k) D[k] = of_kind.of(shapes.degree[static_cast<std::size_t>(k)]);
     Roughness kind;
     const auto pairs = numerics::eigenpairs(R * D.asDiagonal() * R.transpose());
     kind.directions = pairs.vectors;
@@ -127,7 +128,7 @@ Discrepancy::Discrepancy(const assembly::Assembly& assembly, const assembly::Whi
     // No misfit is as likely as any, and has no roughness.
     if (roughness == 0) add(0, 0);
     for (const double size : unlisted::sizes)
-      add(size, unlisted::log_weight(size) - std::log(weights * unlisted::roughness_kinds));
+      add(size, unlisted::log_weight(size) - std::log(weights * unlisted::falls.size()));
     const auto entries = static_cast<Eigen::Index>(kind.size.size());
     kind.precision.resize(entries, q);
     kind.constant.resize(entries);
