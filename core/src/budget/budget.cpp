@@ -5,6 +5,7 @@
 #include <set>
 
 #include "assembly/memory.hpp"
+#include "budget/decision.hpp"
 #include "budget/same_model.hpp"
 #include "diagnosis/evidence/anisotropy.hpp"
 #include "diagnosis/hypotheses/isotropy.hpp"
@@ -147,7 +148,10 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
   for (const diagnosis::FileCause& one : d.explanation.file.causes) {
     const diagnosis::Fit& base = analysis.evidence.fit;
     const double share = 1 - size.squares(one.squares, base) / std::max(size.squares(base), 1e-300);
-    if (share > budget.of_file.share) budget.of_file = {one.sentence, one.mend, share};
+    // An exact transform has no parameter, so that as much as a cause takes is enough. One with an amplitude does what
+    // an error of the rig does as well.
+    const double worth = share - (one.amplitudes.empty() ? 0 : ahead);
+    if (worth > budget.of_file.worth) budget.of_file = {one.sentence, one.mend, share, worth};
   }
   if (subject && diagnosis::is_isotropic(analysis.evidence.base->models().model(0)))
     budget.anisotropy = diagnosis::anisotropy_words(analysis.evidence, budget.tolerance.share);

@@ -41,6 +41,7 @@ struct Budget {
   struct {
     std::string sentence, mend;
     double share = 0;
+    double worth = 0;  ///< the share, less what an amplitude of its own has to be ahead of a cause by
   } of_file;
   bool adequate = false;               ///< the bound of the rest is within the tolerance
   std::string anisotropy;              ///< what the data say of directions that the base lacks; empty: nothing

@@ -13,7 +13,6 @@ namespace {
 using diagnosis::Verdict;
 using Contenders = std::vector<const Contender*>;
 
-constexpr double ahead = 0.15;     ///< of the misfit: of the next cause that is another one
 constexpr double unlikely = 0.01;  ///< of the probability of the likeliest
 
 bool believed(const Contender& one) { return one.belief != Belief::beyond; }

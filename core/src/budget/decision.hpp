@@ -8,6 +8,7 @@
 namespace tunica::budget {
 
 inline constexpr double most_of_it = 0.5;   ///< of the misfit: what leads takes so much at least
+inline constexpr double ahead = 0.15;       ///< of the misfit: of the next cause that is another one
 inline constexpr double sure_enough = 0.9;  ///< probability, with "no listed cause" among the rivals
 
 /// What the contenders allow to say: `leading`, `indistinguishable` or `unknown`.

@@ -170,8 +170,8 @@ void withdraw_causes(diagnosis::Diagnosis& d) {
   d.prospects.next.reset();
 }
 
-/// Read otherwise, the file takes at least as much of the misfit as any cause, and without a parameter: no cause is
-/// named, and the question stands first.
+/// Read otherwise, the file takes more of the misfit than any cause, or as much without a parameter: no cause is named,
+/// and the question stands first.
 void ask_of_the_file(const Budget& budget, diagnosis::Diagnosis& d) {
   withdraw_causes(d);
   d.explanation.verdict = Verdict::indistinguishable;
@@ -233,7 +233,7 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
   Decision decision = decided(budget);
   Explanation& explanation = d.explanation;
   if (const double most = decision.first.empty() ? budget.contenders.front().share : decision.first.front()->share;
-      budget.of_file.share >= std::max(most_of_it, most)) {
+      budget.of_file.worth >= std::max(most_of_it, most)) {
     ask_of_the_file(budget, d);
     return d;
   }
