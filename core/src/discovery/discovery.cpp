@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "diagnosis/evidence/anisotropy.hpp"
+#include "diagnosis/evidence/encompassing_noise.hpp"
 #include "diagnosis/hypotheses/volume.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/prospects/gain.hpp"
@@ -25,6 +26,7 @@ namespace {
 
 // Of a field, where every evaluation takes tens of milliseconds.
 constexpr std::size_t narrow_beam = 4, narrow_exchange = 2;
+constexpr std::size_t whole_fit = 60, short_fit = 20;  ///< evaluations
 
 struct SpecimenSearch {
   std::shared_ptr<const Subject> subject;
@@ -57,16 +59,17 @@ std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Req
 }
 
 /// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions.
-/// `before`: sets of a search with another noise.
+/// `before`: sets of a search with another noise. `evaluations`: of a fit.
 SpecimenSearch search_one(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis,
-                          const Request& request, bool has_directions, const std::vector<SetFit>& before, bool narrow) {
+                          const Request& request, bool has_directions, const std::vector<SetFit>& before, bool narrow,
+                          std::size_t evaluations = whole_fit) {
   const diagnosis::Evidence& evidence = analysis.evidence;
   auto subject = std::make_shared<const Subject>(
       Subject{evidence.experiment, evidence.run, request.model, request.from_nothing, inquiry.catalogue,
               request.from_nothing && diagnosis::changes_volume(*evidence.base)});
   inquiry.report("what the data reach", 0.3);
   const States states = reached_states(*subject, evidence.fit.free);
-  Fitter fitter(*subject, evidence);
+  Fitter fitter(*subject, evidence, evaluations);
   const bool volume = sees_volume(*subject, evidence);
   std::vector<CommonFit> sets_before;
   for (const SetFit& set : before) sets_before.push_back({set.kinds, {set}, set.log_evidence});
@@ -121,13 +124,17 @@ std::optional<SetFit> with_own_tests(const Discovery& found, const StandIns& sta
 
 Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis analysis, const Request& request,
                       bool has_directions, const StandIns& stand_ins) {
-  SpecimenSearch searched = search_one(inquiry, analysis, request, has_directions, {}, !stand_ins.empty());
-  // Noise that the residuals of the base said is asked once more of what the terms leave.
-  if (!searched.sets.empty())
-    if (auto again = diagnosis::restated(inquiry, analysis, searched.sets.front().fit)) {
-      analysis = std::move(*again);
-      searched = search_one(inquiry, analysis, request, has_directions, searched.sets, !stand_ins.empty());
-    }
+  // Noise that the residuals of the base said is asked once more of what the terms leave. A quick search for it is
+  // narrow and its fits are short, because another one decides; that begins where the first ended.
+  const bool narrow = !stand_ins.empty(), first_of_two = request.quick && diagnosis::has_open_noise(analysis.evidence);
+  SpecimenSearch searched = search_one(inquiry, analysis, request, has_directions, {}, narrow || first_of_two,
+                                       first_of_two ? short_fit : whole_fit);
+  if (!searched.sets.empty()) {
+    auto again = diagnosis::restated(inquiry, analysis, searched.sets.front().fit);
+    const bool decided = !again && !first_of_two;
+    if (again) analysis = std::move(*again);
+    if (!decided) searched = search_one(inquiry, analysis, request, has_directions, searched.sets, narrow);
+  }
   Discovery found{request, std::move(analysis), searched.subject};
   found.chi2_before = found.analysis.evidence.fit.chi2;
   found.chi2_after = found.analysis.evidence.fit.chi2;

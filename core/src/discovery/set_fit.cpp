@@ -94,7 +94,8 @@ double log_prior(const std::vector<KindPointer>& kinds, bool from_nothing) {
   return sum;
 }
 
-Fitter::Fitter(const Subject& subject, const diagnosis::Evidence& evidence) : subject_(subject), evidence_(evidence) {
+Fitter::Fitter(const Subject& subject, const diagnosis::Evidence& evidence, std::size_t evaluations)
+    : subject_(subject), evidence_(evidence), evaluations_(evaluations) {
   const Eigen::VectorXd nothing = residuals_of_nothing(evidence);
   measured_ = std::max(nothing.norm(), 10.0);
   if (subject.from_nothing) {
@@ -283,7 +284,7 @@ std::optional<SetFit> Fitter::with_linear(const SetFit& from, std::size_t out, c
 std::optional<SetFit> Fitter::fitted(SetFit set, const std::vector<double>& start, double worth) const {
   const assembly::Assembly& assembly = set.set->assembly();
   set.fit = diagnosis::least_squares(assembly, diagnosis::all_variables(assembly), start,
-                                     *assembly.evaluator().make_workspace(), 60,
+                                     *assembly.evaluator().make_workspace(), evaluations_,
                                      {.wanted = wanted_for(worth), .negligible = diagnosis::says_nothing});
   if (!set.fit.status.ok() || !has_support(set) || has_shape_at_bound(set)) return std::nullopt;
   set.log_evidence = log_evidence(set);
@@ -385,7 +386,7 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
         }
     }
     share = 0.3;
-    Fit fit = diagnosis::least_squares(assembly, variables, at, *workspace, 60,
+    Fit fit = diagnosis::least_squares(assembly, variables, at, *workspace, evaluations_,
                                        {.wanted = wanted_for(worth), .negligible = diagnosis::says_nothing});
     if (!fit.status.ok() || (ok && fit.chi2 >= found.fit.chi2)) continue;
     found.fit = std::move(fit);

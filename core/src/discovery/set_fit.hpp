@@ -44,8 +44,8 @@ struct Growth {
 /// Fits sets of terms and weighs them. Const and thread-safe.
 class Fitter {
  public:
-  /// `evidence`: of the base; from nothing of one neo-Hookean term.
-  Fitter(const Subject& subject, const diagnosis::Evidence& evidence);
+  /// `evidence`: of the base; from nothing of one neo-Hookean term. `evaluations`: after which a fit ends.
+  Fitter(const Subject& subject, const diagnosis::Evidence& evidence, std::size_t evaluations = 60);
 
   /// The base alone, or nothing: what every set grows from. After begin_with() the first terms of a material that
   /// changes its volume, of which no single term holds a specimen together.
@@ -103,6 +103,7 @@ class Fitter {
 
   const Subject& subject_;
   const diagnosis::Evidence& evidence_;
+  std::size_t evaluations_;
   SetFit root_;
   double measured_ = 1;  ///< √Σ(y/σ)²
 };
