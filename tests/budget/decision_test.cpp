@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "budget/output/outputs.hpp"
+
 namespace tunica::budget {
 namespace {
 
@@ -24,6 +26,16 @@ Contender form(const std::string& id, double share, double probability) {
   Contender one = rig(id, share, probability);
   one.in_the_energy = one.term = true;
   return one;
+}
+
+TEST(AnotherState, ShowsItsPrice) {
+  Contender state = rig("another_state", 0.98, 0.0004);
+  state.parameters = 4;
+  EXPECT_EQ(price(state), " (with 4 parameters of its own, probability below 0.01)");
+  state.parameters = 1;
+  state.probability = 0.25;
+  EXPECT_EQ(price(state), " (with 1 parameter of its own, probability 0.25)");
+  EXPECT_EQ(price(rig("gain", 0.98, 0.0004)), "");
 }
 
 struct Deciding : ::testing::Test {

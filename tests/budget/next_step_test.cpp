@@ -45,6 +45,14 @@ TEST_F(NextStep, IsAskedOfTheFileFirst) {
   EXPECT_EQ(after(Verdict::leading), "Say how long and how wide the specimen is: then clamped_ends can be tried.");
 }
 
+TEST_F(NextStep, BeginsWithTheNoiseWhereAnEstimateLetsTheFitFollowOneChannel) {
+  budget.lopsided = "axial_force to 0.04 % of its range and outer_diameter to 1.0 %";
+  budget.not_looked_for = {{"viscoelasticity", Lack::clock}};
+  EXPECT_EQ(after(Verdict::leading),
+            "State the noise: it is estimated, axial_force to 0.04 % of its range and outer_diameter to 1.0 %, so that "
+            "the fit follows the one and lets the other go. Map a time column: then viscoelasticity can be tried.");
+}
+
 TEST_F(NextStep, OfAnUnlistedMisfitDependsOnWhatIsLeft) {
   EXPECT_THAT(after(Verdict::unknown), EndsWith("asks for another base model."));
   budget.base = {0.01, 0.03};

@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "assembly/memory.hpp"
 #include "budget/decision.hpp"
 #include "budget/same_model.hpp"
 #include "diagnosis/evidence/anisotropy.hpp"
+#include "diagnosis/evidence/encompassing_noise.hpp"
 #include "diagnosis/hypotheses/isotropy.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "discovery/preparation.hpp"
+#include "text/misfit_words.hpp"
 
 namespace tunica::budget {
 namespace {
@@ -85,6 +89,26 @@ std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis,
   return all;
 }
 
+/// A noise that is estimated may be so small in one channel that the fit follows it and misses another one by most of
+/// its range. "axial_force to 0.04 % of its range and outer_diameter to 1.0 %"
+std::string lopsided_words(const diagnosis::Evidence& evidence, const std::vector<ChannelSize>& channels) {
+  constexpr double far = 0.3, several = 5;  // far: of the range
+  if (!diagnosis::has_open_noise(evidence)) return {};
+  const auto sigma = [&](const ChannelSize& channel) {
+    for (const diagnosis::NoiseSource& one : evidence.noise)
+      if (one.test == channel.test && one.channel == channel.channel) return one.noise.absolute / channel.range;
+    return 0.0;
+  };
+  const ChannelSize *followed = nullptr, *missed = nullptr;
+  for (const ChannelSize& one : channels) {
+    if (sigma(one) > 0 && (!followed || sigma(one) < sigma(*followed))) followed = &one;
+    if (!missed || one.of_range().rms > missed->of_range().rms) missed = &one;
+  }
+  if (!followed || missed->of_range().rms < far || sigma(*missed) < several * sigma(*followed)) return {};
+  return fmt::format("{} to {} of its range and {} to {}", followed->channel, text::percent(sigma(*followed)),
+                     missed->channel, text::percent(sigma(*missed)));
+}
+
 }  // namespace
 
 Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* search,
@@ -97,6 +121,7 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
   if (analysis.alarm.raised) budget.not_looked_for = not_looked_for(analysis, catalogue);
   budget.base = size.of(analysis.evidence.fit);
   budget.base_channels = budget.rest_channels = size.channels(analysis.evidence.fit);
+  budget.lopsided = lopsided_words(analysis.evidence, budget.base_channels);
   const auto subject = subject_of(d, catalogue);
   const auto name_model = [&](std::vector<std::string> causes, const assembly::Assembly& extended,
                               const diagnosis::Fit& fit, const std::vector<diagnosis::Addition>& additions) {
@@ -144,7 +169,8 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
   budget.unlisted_probability = entrants.unlisted_probability;
   for (const Entrant& one : entrants.all)
     budget.contenders.push_back({one.id, one.sort, one.place, one.group, one.term, one.in_the_energy, one.share,
-                                 one.probability, one.rest, one.belief});
+                                 one.probability, one.rest, one.belief,
+                                 static_cast<std::size_t>(one.columns.added.cols())});
   for (const diagnosis::FileCause& one : d.explanation.file.causes) {
     const diagnosis::Fit& base = analysis.evidence.fit;
     const double share = 1 - size.squares(one.squares, base) / std::max(size.squares(base), 1e-300);

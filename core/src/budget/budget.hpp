@@ -25,6 +25,10 @@ struct Contender {
   double share = 0, probability = 0;
   Size rest;
   Belief belief = Belief::plausible;
+  std::size_t parameters = 1;  ///< that it adds
+
+  /// One test with parameters of its own.
+  [[nodiscard]] bool is_state() const { return id == "another_state"; }
 };
 
 /// How large the misfit of the base is, what takes it, and what is left.
@@ -60,6 +64,7 @@ struct Budget {
     std::string id;
     Lack lack;
   };
+  std::string lopsided;  ///< which channels an estimated noise lets the fit follow, and which not; empty: none
   std::vector<Untried> not_looked_for;    ///< mechanisms, or terms, that could be the cause
   std::shared_ptr<const Mixture> fitted;  ///< all steps; null where there are none
   /// What differs in the test that another state leads in; with_verdict_of() sets it.

@@ -80,7 +80,7 @@ Contenders rivals_of(const Budget& budget, const Contender& top, double sure) {
 /// takes there: it goes where they are sure without it and take as much, and leads where it is sure by itself.
 Contenders with_another_state_judged(Contenders ties, double sure) {
   constexpr double as_much = 0.05;
-  const auto is_state = [](const Contender* one) { return one->id == "another_state"; };
+  const auto is_state = [](const Contender* one) { return one->is_state(); };
   Contenders listed, states;
   std::partition_copy(ties.begin(), ties.end(), std::back_inserter(states), std::back_inserter(listed), is_state);
   if (states.empty()) return ties;

@@ -44,6 +44,13 @@ std::string what_the_file_lacks(const Budget& budget) {
   return text;
 }
 
+/// Nothing that is said of such a fit is worth a step before the noise is known.
+std::string noise_first(const Budget& budget) {
+  if (budget.lopsided.empty()) return {};
+  return fmt::format("State the noise: it is estimated, {}, so that the fit follows the one and lets the other go.",
+                     budget.lopsided);
+}
+
 std::string what_is_open(const Budget& budget) {
   if (budget.rough) return "Measure a test twice on one specimen: what does not come back is noise, or softening.";
   if (budget.base.upper <= budget.tolerance.share)
@@ -57,7 +64,8 @@ std::string what_is_open(const Budget& budget) {
 std::string next_step(const Budget& budget, const diagnosis::Explanation& explanation) {
   const Verdict verdict = explanation.verdict;
   if (verdict != Verdict::unknown && verdict != Verdict::leading && verdict != Verdict::indistinguishable) return "";
-  std::string text = what_the_file_lacks(budget);
+  std::string text = noise_first(budget);
+  if (const std::string lacks = what_the_file_lacks(budget); !lacks.empty()) text += (text.empty() ? "" : " ") + lacks;
   // Other reasons have a next step of their own, or none.
   const bool unlisted =
       std::any_of(explanation.reasons.begin(), explanation.reasons.end(),

@@ -15,6 +15,7 @@
 #include "diagnosis/naming/causes.hpp"
 #include "diagnosis/naming/unseen_rivals.hpp"
 #include "diagnosis/prospects/gain.hpp"
+#include "text/lists.hpp"
 #include "text/units.hpp"
 
 namespace tunica::budget {
@@ -98,7 +99,7 @@ std::string tie_words(const Budget& budget, const Decision& decision) {
   for (const Contender* one : shown) {
     const bool alike = named[one->id + place_of(one->place)] > 1;
     parts.push_back(fmt::format("{}{}{} {}{}", one->id, alike ? ", acting like " + one->sort + "," : "",
-                                place_of(one->place), percent(one->share),
+                                place_of(one->place), percent(one->share) + price(*one),
                                 one->belief == Belief::beyond ? " (beyond what is plausible)" : ""));
   }
   const std::string rest = remains(budget.rest(), budget.tolerance);
@@ -120,14 +121,23 @@ std::string unknown_words(const Budget& budget) {
     text += fmt::format(", which is within the tolerance ({}, {})", percent(budget.tolerance.share),
                         origin_words(budget.tolerance));
   if (budget.contenders.empty()) return text;
-  const Contender& best = budget.contenders.front();
-  text += fmt::format("; the best single cause, {}, takes {}", best.id, percent(best.share));
+  // A test with parameters of its own takes much, whatever the cause is.
+  const auto& all = budget.contenders;
+  const auto listed = std::find_if(all.begin(), all.end(), [](const Contender& one) { return !one.is_state(); });
+  const Contender& best = listed == all.end() ? all.front() : *listed;
+  text += fmt::format("; the best single cause, {}{}, takes {}{}", best.id, place_of(best.place), percent(best.share),
+                      price(best));
   if (best.belief == Belief::beyond) text += " with an amplitude that is beyond belief";
   if (budget.unlisted_probability > 1 - sure_enough)
     text += fmt::format("; that it is a smooth misfit without a listed cause has probability {:.2f}",
                         budget.unlisted_probability);
   else if (best.share < most_of_it)
     text += ", and no cause takes half";
+  const Contender& likeliest = *std::max_element(
+      all.begin(), all.end(), [](const Contender& a, const Contender& b) { return a.probability < b.probability; });
+  if (&likeliest != &best && likeliest.probability > std::max(best.probability, 1 - sure_enough))
+    text += fmt::format("; the likeliest cause, {}{}, takes {} and has probability {:.2f}", likeliest.id,
+                        place_of(likeliest.place), percent(likeliest.share), likeliest.probability);
   return text;
 }
 
@@ -216,14 +226,35 @@ void propose_state(Budget& budget, const diagnosis::Analysis& analysis, const pl
   budget.state = std::make_shared<const ProposedState>(std::move(*state));
 }
 
-/// "; as a state of its own, mu is 31.2 kPa there instead of 20.1 kPa, which takes 97 %"
+/// "mu is 31.2 kPa there instead of 20.1", with as many digits as tell the values apart.
+std::string change_words(const ProposedState::Change& change) {
+  constexpr int least = 3, most = 15;
+  std::string there, elsewhere;
+  for (int digits = least; digits <= most && there == elsewhere; ++digits) {
+    there = fmt::format("{:.{}g}", change.in_state, digits);
+    elsewhere = fmt::format("{:.{}g}", change.value, digits);
+  }
+  return fmt::format("{} is {}{} there instead of {}", change.parameter, there, text::unit_suffix(change.unit),
+                     elsewhere);
+}
+
+/// "; as a state of its own, mu is 31.2 kPa there instead of 20.1, which takes 97 %". Where all parameters are free
+/// there, some hardly differ.
 std::string state_words(const Budget& budget) {
   if (!budget.state) return {};
-  std::vector<std::string> changes;
-  for (const ProposedState::Change& one : budget.state->changes)
-    changes.push_back(fmt::format("{} is {:.3g}{} there instead of {:.3g}", one.parameter, one.in_state,
-                                  text::unit_suffix(one.unit), one.value));
-  return fmt::format("; as a state of its own, {}, which takes {}", fmt::join(changes, ", "),
+  constexpr double hardly = 1e-3;
+  std::vector<std::string> changes, same;
+  for (const ProposedState::Change& one : budget.state->changes) {
+    if (std::abs(one.in_state - one.value) > hardly * std::abs(one.value))
+      changes.push_back(change_words(one));
+    else
+      same.push_back(one.parameter);
+  }
+  if (changes.empty()) return {};
+  const std::string rest = same.empty() ? ""
+                                        : fmt::format(" ({} {} the same to 0.1 %)", text::joined(same),
+                                                      text::agreeing(same.size(), "is", "are"));
+  return fmt::format("; as a state of its own, {}{}, which takes {}", fmt::join(changes, ", "), rest,
                      percent(budget.state->share));
 }
 
@@ -311,7 +342,7 @@ diagnosis::Diagnosis with_verdict_of(Budget& budget, const experiment::Experimen
   if (std::string first = next_step(budget, diagnosis.explanation); !first.empty()) {
     auto& next = diagnosis.prospects.next;
     if (!next) next.emplace();
-    next->description = next->description.empty() ? first : first + ' ' + next->description;
+    next->description = next->description.empty() ? first : first + ' ' + text::capitalised(next->description);
   }
   return diagnosis;
 }

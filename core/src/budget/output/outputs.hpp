@@ -19,6 +19,9 @@ const char* origin_words(const Tolerance& tolerance);
 /// "2.3 % of the range remains (tolerance 2.0 %, default), for which no cause is claimed"
 std::string remains(const Size& rest, const Tolerance& tolerance);
 
+/// " (with 4 parameters of its own, probability 0.03)" of another state; empty of other causes, which bring one or two.
+std::string price(const Contender& contender);
+
 /// The registered model that the base with its causes is, as a line below the verdict; empty where there is none.
 text::StyledText same_model_line(const Budget& budget, const std::string& base);
 

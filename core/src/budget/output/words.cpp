@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "budget/output/outputs.hpp"
+#include "text/lists.hpp"
 #include "text/wrapping.hpp"
 
 namespace tunica::budget {
@@ -41,6 +42,14 @@ std::string untried(const std::vector<Budget::Untried>& all) {
 }
 
 }  // namespace
+
+std::string price(const Contender& contender) {
+  if (!contender.is_state()) return {};
+  const std::string probability =
+      contender.probability < 0.005 ? "below 0.01" : fmt::format("{:.2f}", contender.probability);
+  return fmt::format(" (with {} of its own, probability {})",
+                     text::counted(contender.parameters, "parameter", "parameters"), probability);
+}
 
 const char* origin_words(const Tolerance& tolerance) {
   switch (tolerance.origin) {
@@ -87,12 +96,16 @@ text::StyledText summary(const Budget& budget, const std::string& base) {
     lines += text::hanging("Left:     ", assembly::where_most(budget.rest_channels)) + '\n';
   lines += same_model_line(budget, base);
   std::vector<std::string> others;
+  bool state = false;
   for (const Contender& one : budget.contenders) {
     const bool step =
         std::any_of(budget.steps.begin(), budget.steps.end(), [&](const Step& own) { return own.id == one.id; });
-    if (step || one.share < 0.1 || others.size() >= 3) continue;
-    others.push_back(fmt::format("{}{} {}{}", one.id, one.place.tests.empty() ? "" : " " + one.place.words(),
-                                 percent(one.share), one.belief == Belief::beyond ? " (beyond belief)" : ""));
+    // Of several tests each may be the other state: one stands for them.
+    if (step || one.share < 0.1 || others.size() >= 3 || (state && one.is_state())) continue;
+    state = state || one.is_state();
+    others.push_back(fmt::format("{}{} {}{}{}", one.id, one.place.tests.empty() ? "" : " " + one.place.words(),
+                                 percent(one.share), price(one),
+                                 one.belief == Belief::beyond ? " (beyond belief)" : ""));
   }
   if (!others.empty()) lines += text::hanging("Alone:    ", fmt::format("{}", fmt::join(others, ", "))) + '\n';
   if (!budget.not_looked_for.empty()) lines += text::hanging("Untried:  ", untried(budget.not_looked_for)) + '\n';

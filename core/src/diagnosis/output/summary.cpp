@@ -43,7 +43,14 @@ std::string verdict_line(const Diagnosis& d) {
       return "NOTHING DETECTED: the model describes these data to within their noise";
     case Verdict::named: {
       std::vector<std::string> ids;
-      for (std::size_t k = 0; k < claim.named; ++k) ids.push_back(claim.causes[k].id);
+      for (std::size_t k = 0; k < claim.named; ++k) {
+        const std::string& id = claim.causes[k].id;
+        const auto same = [&](const Cause& cause) { return cause.id == id; };
+        const auto named = claim.causes.begin() + static_cast<std::ptrdiff_t>(claim.named);
+        const auto count = std::count_if(claim.causes.begin(), named, same);
+        if (std::find_if(claim.causes.begin(), named, same) - claim.causes.begin() == static_cast<std::ptrdiff_t>(k))
+          ids.push_back(count > 1 ? fmt::format("{} ({} times)", id, count) : id);
+      }
       for (const Cause& row : explanation.left_out) ids.push_back(fmt::format("{} {}", row.id, row.place.words()));
       if (!explanation.admissibility.remedy.empty() && d.analysis.alarm.p() > d.request.alpha)
         return fmt::format("NAMED: {} restores the stability that the base fit loses; the curves raise no alarm",
