@@ -314,7 +314,6 @@ std::optional<Growth> Fitter::growth(const SetFit& from, const KindPointer& more
   const auto workspace = assembly.evaluator().make_workspace();
   const std::vector<double> beginning = start_of(from, *larger->set);
   const Projection absorbed(diagnosis::interior(from.fit));
-
   std::vector<Promise> promises;
   for (const auto& shapes : combinations(kind)) {
     std::vector<double> at = beginning;
