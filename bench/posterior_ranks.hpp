@@ -136,14 +136,16 @@ inline void add_misfit(const assembly::Assembly& assembly, posterior::CounterRan
       tau = size;
       break;
     }
-  const auto roughness = static_cast<int>(unlisted::roughness_kinds * random.uniform());
+  const auto roughness = static_cast<std::size_t>(static_cast<double>(unlisted::falls.size()) * random.uniform());
   for (const auto& view : assembly.layout().channels) {
     const auto shapes = assembly::curve_shapes(view.abscissa, 14);
     const auto first = predictions.begin() + static_cast<std::ptrdiff_t>(view.offset);
     const auto [low, high] = std::minmax_element(first, first + static_cast<std::ptrdiff_t>(view.count));
     const double range = *high - *low;
+    const double highest = shapes.degree.empty() ? 0 : *std::ranges::max_element(shapes.degree);
+    const unlisted::Variances variances(roughness, static_cast<unsigned>(highest));
     for (Eigen::Index k = 0; k < shapes.columns.cols(); ++k) {
-      const double variance = unlisted::variance(roughness, shapes.degree[static_cast<std::size_t>(k)]);
+      const double variance = variances.of(shapes.degree[static_cast<std::size_t>(k)]);
       const double height = tau * range * std::sqrt(variance) * random.normal();
       for (std::size_t i = 0; i < view.count; ++i)
         first[static_cast<std::ptrdiff_t>(i)] += height * shapes.columns(static_cast<Eigen::Index>(i), k);

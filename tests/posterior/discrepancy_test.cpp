@@ -2,6 +2,8 @@
 // The likelihood beside a smooth misfit, against the same written out with dense matrices.
 #include "posterior/discrepancy.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -30,14 +32,20 @@ struct Case {
 
 /// One τ, D and s: 1 and the others as the header has them.
 struct Dense {
-  Dense(const posterior::Question& question, double size, int roughness) {
+  Dense(const posterior::Question& question, double size, std::size_t roughness) {
     const auto& view = question.assembly.layout().channels.front();
     const auto [columns, degree] = assembly::curve_shapes(view.abscissa, 14);
+    const auto fall = [&](double d) {
+      constexpr std::array flat{1.5, 3.0, 6.0};
+      if (roughness == 0) return std::pow(1 + d, -2);
+      if (roughness == 1) return std::pow(1 + d, -4);
+      return roughness == 2 ? std::exp(-1.5 * d) : std::exp(-d * d / 2 / std::pow(flat.at(roughness - 3), 2));
+    };
+    // τ is the root mean square over the curve, and that of a Legendre polynomial 1/√(2d + 1).
+    double mean_square = 0;
+    for (int d = 0; d <= *std::max_element(degree.begin(), degree.end()); ++d) mean_square += fall(d) / (2 * d + 1);
     VectorXd D(columns.cols());
-    for (Eigen::Index k = 0; k < D.size(); ++k) {
-      const double d = degree[static_cast<std::size_t>(k)];
-      D[k] = roughness == 0 ? std::pow(1 + d, -2) : roughness == 1 ? std::pow(1 + d, -4) : std::exp(-1.5 * d);
-    }
+    for (Eigen::Index k = 0; k < D.size(); ++k) D[k] = fall(degree[static_cast<std::size_t>(k)]) / mean_square;
     const MatrixXd all = size * size * range * range * columns * D.asDiagonal() * columns.transpose();
     const auto& rows = question.whitening.rows;
     const auto n = static_cast<Eigen::Index>(rows.size());
@@ -63,7 +71,7 @@ struct Dense {
 double log_likelihood(const posterior::Question& question, const VectorXd& r) {
   double total = 0.5 * std::exp(Dense(question, 0, 0).log_density(r)), weights = 0, misfit = 0;
   for (const double size : {0.0025, 0.005, 0.01, 0.02, 0.04, 0.08, 0.16, 0.32})
-    for (int roughness = 0; roughness < 3; ++roughness) {
+    for (std::size_t roughness = 0; roughness < 6; ++roughness) {
       const double weight = std::exp(-0.5 * std::pow(std::log(size / 0.02) / 0.7, 2));
       misfit += weight * std::exp(Dense(question, size, roughness).log_density(r));
       weights += weight;
@@ -134,7 +142,7 @@ TEST(Discrepancy, DrawsTheMisfitThatTheRowsLeaveOpen) {
     EXPECT_EQ(found.factor, 1);
     with_misfit += found.size > 0 ? 1 : 0;
     double nearest = 1e9;
-    for (int roughness = 0; roughness < 3; ++roughness) {
+    for (std::size_t roughness = 0; roughness < 6; ++roughness) {
       const Dense dense(*question, found.size, roughness);
       const VectorXd mean = -dense.between * dense.covariance.inverse() * r;
       const VectorXd variance =
