@@ -163,9 +163,7 @@ TEST(Cards, RefuseSettingsAndParametersThatAreNotUsable) {
               HasSubstr("CalculiX takes what is below 1e-10 for 0"));
   EXPECT_THAT(refused(Target::calculix, material({"neo_hooke", {{"mu", -1}}})),
               HasSubstr("found a shear modulus of -1 kPa at rest"));
-  EXPECT_THAT(refusal([] {
-                (void)material({"ogden", {{"mu_1", 1}, {"alpha_1", 0}}, option("terms", std::int64_t{1})});
-              }),
+  EXPECT_THAT(refused(Target::calculix, {.type = "ogden", .energy = StretchEnergy{{{1, 0}}}}),
               HasSubstr("the exponent alpha_1 is 0"));
   EXPECT_THAT(refusal([] { (void)cards::target_of("calculx"); }), HasSubstr("Did you mean 'calculix'?"));
 }
@@ -185,6 +183,10 @@ TEST(Cards, AreThoseOfTheFormOfAnEnergyWhateverItsModelIsCalled) {
   const cards::Material fourth = own({{{1, 0, 200}, {4, 0, 1}}});
   EXPECT_THAT(refused(Target::ansys, fourth), HasSubstr("end with the third degree"));
   EXPECT_THAT(refused(Target::lsdyna, fourth, {.density = 1000}), HasSubstr("ends with c30"));
+  EXPECT_THAT(refused(Target::calculix, fourth), HasSubstr("end with degree 3, and this one has 4"));
+  EXPECT_EQ(refused(Target::abaqus, fourth), "accepted");
+  EXPECT_THAT(refused(Target::abaqus, own({})), HasSubstr("its card has no term"));
+  EXPECT_THAT(refused(Target::abaqus, own({{{1, 0, NAN}}})), HasSubstr("found nan in the energy of its card"));
 }
 
 TEST(Cards, TakeTheVolumeOfAMechanismAndRefuseOthers) {

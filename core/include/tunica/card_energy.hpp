@@ -29,9 +29,12 @@ namespace tunica {
 struct PolynomialEnergy {
   /// One product of powers; each pair {m, n} occurs once, and m + n ≥ 1.
   struct Term {
-    std::size_t m,       ///< power of I1 − 3
-        n;               ///< power of I2 − 3
-    double coefficient;  ///< C_mn, kPa
+    /// Power of I1 − 3.
+    std::size_t m;
+    /// Power of I2 − 3.
+    std::size_t n;
+    /// C_mn, kPa; of either sign.
+    double coefficient;
   };
   /// In any order.
   std::vector<Term> terms;
@@ -47,8 +50,10 @@ struct LimitedChainEnergy {
 struct StretchEnergy {
   /// One power of the principal stretches.
   struct Term {
-    double mu;     ///< kPa
-    double alpha;  ///< not 0
+    /// kPa; of the sign of alpha where it stiffens.
+    double mu;
+    /// Not 0; writers divide by it.
+    double alpha;
   };
   /// In any order.
   std::vector<Term> terms;

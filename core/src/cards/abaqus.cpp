@@ -18,8 +18,11 @@ namespace {
 std::string keyword_line(std::string_view form) { return fmt::format("*HYPERELASTIC, {}\n", form); }
 
 /// U = Σ C_mn (Ī1 − 3)^m (Ī2 − 3)^n + Σ (J − 1)^2i/D_i, the sum complete to degree N.
-std::string abaqus_polynomial(const Draft& draft, const PolynomialEnergy& energy) {
+std::string abaqus_polynomial(const Draft& draft, const PolynomialEnergy& energy, std::size_t highest) {
   const std::size_t N = degree(energy);
+  if (N > highest)
+    throw CannotExpress{fmt::format("its polynomials end with degree {}, and this one has {}", highest, N),
+                        "fit fewer constants"};
   std::vector<double> values;
   for (std::size_t sum = 1; sum <= N; ++sum)
     for (std::size_t n = 0; n <= sum; ++n) values.push_back(draft.stress * coefficient(energy, sum - n, n));
@@ -29,7 +32,7 @@ std::string abaqus_polynomial(const Draft& draft, const PolynomialEnergy& energy
 }
 
 // U = C10 (Ī1 − 3) + (J − 1)²/D1, and with more terms.
-std::string polynomial_keyword(const Draft& draft, const PolynomialEnergy& energy) {
+std::string polynomial_keyword(const Draft& draft, const PolynomialEnergy& energy, std::size_t highest) {
   const auto C = [&](std::size_t m, std::size_t n) { return draft.stress * coefficient(energy, m, n); };
   const double d1 = draft.d1();
   if (consists_of(energy, {{1, 0}})) return keyword_line("NEO HOOKE") + data_lines(std::vector{C(1, 0), d1});
@@ -37,7 +40,7 @@ std::string polynomial_keyword(const Draft& draft, const PolynomialEnergy& energ
     return keyword_line("MOONEY-RIVLIN") + data_lines(std::vector{C(1, 0), C(0, 1), d1});
   if (consists_of(energy, {{1, 0}, {2, 0}, {3, 0}}))
     return keyword_line("YEOH") + data_lines(std::vector{C(1, 0), C(2, 0), C(3, 0), d1, 0.0, 0.0});
-  return abaqus_polynomial(draft, energy);
+  return abaqus_polynomial(draft, energy, highest);
 }
 
 // U = Σ 2 μ_i/α_i² (λ̄1^α_i + λ̄2^α_i + λ̄3^α_i − 3) + Σ (J − 1)^2i/D_i: their μ_i is ½ μ_i α_i here.
@@ -92,6 +95,7 @@ std::string by_subroutine(const Draft& draft, const FibreEnergy& energy) {
 // U = C10 (Ī1 − 3) + 1/D [(J² − 1)/2 − ln J] + k1/(2 k2) Σ {exp[k2 ⟨Ē⟩²] − 1},  Ē = κ (Ī1 − 3) + (1 − 3κ) (Ī4 − 1).
 std::string holzapfel(const Draft& draft, const FibreEnergy& energy) {
   if (!alike(energy)) throw CannotExpress{"the HOLZAPFEL energy has one k1 and one k2 for all families", ""};
+  if (energy.families.size() > 3) throw CannotExpress{"the HOLZAPFEL energy has three families at most", ""};
   const FibreFamily& family = energy.families.front();
   if (!without_normal(family))
     throw CannotExpress{"the HOLZAPFEL energy lacks the stretch along the normal of the wall", ""};
@@ -112,11 +116,11 @@ std::string holzapfel(const Draft& draft, const FibreEnergy& energy) {
 
 }  // namespace
 
-std::string hyperelastic_keyword(const Draft& draft, std::size_t most_ogden_terms) {
+std::string hyperelastic_keyword(const Draft& draft, std::size_t most_terms) {
   if (const auto* const energy = std::get_if<PolynomialEnergy>(&draft.material.energy))
-    return polynomial_keyword(draft, *energy);
+    return polynomial_keyword(draft, *energy, most_terms);
   if (const auto* const energy = std::get_if<StretchEnergy>(&draft.material.energy))
-    return ogden_keyword(draft, *energy, most_ogden_terms);
+    return ogden_keyword(draft, *energy, most_terms);
   throw CannotExpress{"it has no energy with a limit of extension of the chains", "fit 'yeoh' or 'ogden'"};
 }
 

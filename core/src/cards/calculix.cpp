@@ -36,6 +36,7 @@ void check_d1(const Draft& draft) {
 // U = C10 (Ī1 − 3) + (J − 1)²/D1 + Σ k1/(2 k2) [exp(k2 ⟨Ī4 − 1⟩²) − 1], up to four families, each with its direction.
 std::string elastic_fiber(const Draft& draft, const FibreEnergy& energy) {
   const bool unswitched = energy.active == EnergyPart::Active::always;
+  if (energy.families.size() > 4) throw CannotExpress{"it has four families of fibres at most", ""};
   const std::string with_strain = unswitched ? " with fibre_switch 'strain'" : "";
   for (const auto& family : energy.families)
     if (family.A != 0 || !without_normal(family))

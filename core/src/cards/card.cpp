@@ -191,6 +191,7 @@ std::string Draft::density() const {
 
 std::string write_card(Target target, const Material& material, const CardSettings& settings) {
   check_name(settings.name);
+  check(material);
   Draft draft{material, settings, settings.units.stress_per_kPa};
   if (settings.subroutine && (target != Target::abaqus || !has_fibres(material)))
     throw InputError(

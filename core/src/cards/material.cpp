@@ -14,15 +14,41 @@ namespace tunica::cards {
 
 namespace {
 
-void check_exponents(const Material& material) {
-  const auto* const stretches = std::get_if<StretchEnergy>(&material.energy);
-  if (stretches == nullptr) return;
-  for (std::size_t k = 0; k < stretches->terms.size(); ++k)
-    if (stretches->terms[k].alpha == 0)
-      throw InputError(
-          fmt::format("model '{}': the exponent alpha_{} is 0, and every program divides by it; keep it off 0 by its "
-                      "bounds, or leave the term out",
-                      material.type, k + 1));
+/// What a form holds, for check().
+struct Numbers {
+  std::vector<double> all, exponents;
+};
+
+template <class Term>
+void add_powers(const std::vector<Term>& terms, Numbers& numbers) {
+  for (const auto& term : terms) {
+    numbers.all.push_back(term.mu);
+    numbers.exponents.push_back(term.alpha);
+  }
+}
+
+Numbers numbers_of(const PolynomialEnergy& energy) {
+  Numbers numbers;
+  for (const auto& term : energy.terms) numbers.all.push_back(term.coefficient);
+  return numbers;
+}
+Numbers numbers_of(const LimitedChainEnergy& energy) { return {{energy.mu, energy.Jm}, {}}; }
+Numbers numbers_of(const StretchEnergy& energy) {
+  Numbers numbers;
+  add_powers(energy.terms, numbers);
+  return numbers;
+}
+Numbers numbers_of(const FoamEnergy& energy) {
+  Numbers numbers;
+  add_powers(energy.terms, numbers);
+  for (const auto& term : energy.terms) numbers.all.push_back(term.nu);
+  return numbers;
+}
+Numbers numbers_of(const FibreEnergy& energy) {
+  Numbers numbers;
+  for (const FibreFamily& one : energy.families)
+    numbers.all.insert(numbers.all.end(), {energy.mu, one.angle, one.k1, one.k2, one.A, one.B});
+  return numbers;
 }
 
 const CardFormula& formula_of(const plugins::Catalogue& catalogue, const std::string& model) {
@@ -61,19 +87,21 @@ Material material_of(const plugins::Catalogue& catalogue, const Ingredient& mode
                      std::span<const Ingredient> mechanisms, std::span<const double> values) {
   Material material{.type = model.type};
   const CardFormula& formula = formula_of(catalogue, model.type);
-  for (std::size_t k = mechanisms.size(); k-- > 0;) {
+  for (std::size_t k = 0; k < mechanisms.size(); ++k) {
     const MechanismFactory& mechanism = catalogue.mechanisms().find(mechanisms[k].type)->second.factory;
     if (!mechanism.card_volume || k > 0)
       throw InputError(
-          fmt::format("the mechanism '{}' changes the model '{}', and no card has it; fit and export a model without "
-                      "it, or one that contains it",
-                      mechanism.id, model.type));
-    const std::size_t own = mechanism.parameters_with(mechanisms[k].options).size();
-    material.volume = mechanism.card_volume(mechanisms[k].options, values.last(own));
+          fmt::format("the mechanism '{}' changes the model '{}', and no card has it{}; take it out, or take a model "
+                      "that contains it. A template may write the parameters by name instead of a card",
+                      mechanism.id, model.type, mechanism.card_volume ? " beside another one" : ""));
+  }
+  if (!mechanisms.empty()) {
+    const MechanismFactory& mechanism = catalogue.mechanisms().find(mechanisms[0].type)->second.factory;
+    const std::size_t own = mechanism.parameters_with(mechanisms[0].options).size();
+    material.volume = mechanism.card_volume(mechanisms[0].options, values.last(own));
     values = values.first(values.size() - own);
   }
   material.energy = formula(model.options, values);
-  check_exponents(material);
   return material;
 }
 
@@ -128,6 +156,25 @@ std::string_view switch_words(const FibreEnergy& energy) {
       return "stretch";
   }
   return "";
+}
+
+void check(const Material& material) {
+  const Numbers numbers = std::visit([](const auto& energy) { return numbers_of(energy); }, material.energy);
+  if (numbers.all.empty())
+    throw InputError(fmt::format("model '{}': its card has no term; correct what its plugin declares", material.type));
+  for (std::size_t k = 0; k < numbers.exponents.size(); ++k)
+    if (numbers.exponents[k] == 0)
+      throw InputError(
+          fmt::format("model '{}': the exponent alpha_{} is 0, and every program divides by it; keep it off 0 by its "
+                      "bounds, or leave the term out",
+                      material.type, k + 1));
+  for (const std::vector<double>& all : {numbers.all, numbers.exponents})
+    for (const double value : all)
+      if (!std::isfinite(value))
+        throw InputError(
+            fmt::format("model '{}': found {} in the energy of its card, expected finite numbers; check "
+                        "the parameters",
+                        material.type, value));
 }
 
 double stiffness_at_rest(const Material& material) {

@@ -54,6 +54,9 @@ struct Powers {
 /// "strain", "stretch" or "none", as the option fibre_switch of models says it.
 [[nodiscard]] std::string_view switch_words(const FibreEnergy& energy);
 
+/// Throws InputError where a number is not finite, an exponent is 0, or there is no term.
+void check(const Material& material);
+
 /// The shear modulus at rest, kPa; with fibres the stiffness along the stiffest family that goes with it, μ + 4 k1.
 /// Throws InputError where it is not positive: no program would find an equilibrium.
 double stiffness_at_rest(const Material& material);

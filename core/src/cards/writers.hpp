@@ -31,8 +31,9 @@ struct CannotExpress {
 std::string data_lines(std::span<const double> values);
 std::string joined_lines(std::span<const std::string> values);
 
-/// *HYPERELASTIC of an isotropic model in the keywords that Abaqus and CalculiX share; "" for another model.
-std::string hyperelastic_keyword(const Draft& draft, std::size_t most_ogden_terms);
+/// *HYPERELASTIC of an isotropic model in the keywords that Abaqus and CalculiX share. `most_terms`: of Ogden's energy,
+/// and the degree of a polynomial.
+std::string hyperelastic_keyword(const Draft& draft, std::size_t most_terms);
 
 /// *HYPERFOAM of these terms in the keywords that Abaqus and CalculiX share: μ and α of every term, then every ν.
 std::string hyperfoam_keyword(const Draft& draft, const FoamEnergy& foam);

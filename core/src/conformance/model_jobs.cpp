@@ -105,7 +105,12 @@ Jobs model_jobs(const std::string& type, const CheckContext& context) {
   const auto add_card = [&](const Finding& of, const Options& options) {
     if (!entry.factory.card) return;
     add(jobs, of, "card_has_the_energy_of_the_model", [&entry, options, seed = context.settings.seed] {
-      return card_has_the_energy_of_the_model(*plugins::create_bare(entry, options), entry.factory.card, options, seed);
+      try {
+        return card_has_the_energy_of_the_model(*plugins::create_bare(entry, options), entry.factory.card, options,
+                                                seed);
+      } catch (const InputError& refusal) {
+        return not_checked("W with that of the declared card", refusal.what());
+      }
     });
   };
   add_card(head, plausible_options(entry.factory.options));

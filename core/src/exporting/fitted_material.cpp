@@ -97,16 +97,6 @@ std::string chosen_model(const std::vector<std::string>& models, const std::stri
   return wanted;
 }
 
-/// The model's parameters by their own names: "mu" for "media.mu".
-Parameters own_parameters(const Json& run, const std::string& model, bool several) {
-  const std::string prefix = several ? model + '.' : "";
-  Parameters parameters;
-  for (const Json& group : {member(member(run, "best"), "parameters"), member(run, "fixed")})
-    for (const auto& [name, entry] : group.items())
-      if (name.starts_with(prefix)) parameters.emplace_back(name.substr(prefix.size()), entry);
-  return parameters;
-}
-
 experiment::ModelEntry model_entry(const std::filesystem::path& input, const std::string& name,
                                    const plugins::Catalogue& catalogue) {
   const experiment::JsonDocument document(input, execution::read_text(input));
@@ -115,26 +105,33 @@ experiment::ModelEntry model_entry(const std::filesystem::path& input, const std
                                 catalogue, shared);
 }
 
-/// Of the model, then of its mechanisms, as cards::material_of() takes them.
-std::vector<double> values_of(const experiment::ModelEntry& model, const plugins::Catalogue& catalogue,
-                              const Parameters& parameters) {
-  std::vector<std::string> names;
+/// The model's parameters by their own names, then those of its mechanisms, as cards::material_of() takes them. A
+/// shared one is in the result under the name of the share.
+Parameters own_parameters(const experiment::ModelEntry& model, const plugins::Catalogue& catalogue, const Json& run,
+                          bool several) {
+  const std::string prefix = several ? model.name + '.' : "";
+  Parameters parameters;
+  const auto add = [&](const std::string& name, const experiment::ParameterSettings& settings, const std::string& key) {
+    const auto setting = settings.find(key);
+    const bool shared = setting != settings.end() && setting->second.share;
+    const std::string wanted = shared ? *setting->second.share : prefix + name;
+    for (const Json& group : {member(member(run, "best"), "parameters"), member(run, "fixed")})
+      if (group.contains(wanted) && std::isfinite(report::number(group.at(wanted), "value"))) {
+        parameters.emplace_back(name, group.at(wanted));
+        return;
+      }
+    throw InputError(fmt::format(
+        "model '{}': the result has no finite value for '{}', as it is where every state of the specimen has "
+        "its own; give a result without states",
+        model.name, wanted));
+  };
   const auto made = plugins::create(catalogue.models().find(model.type)->second, model.options);
-  for (const Parameter& parameter : made->describe().parameters) names.push_back(parameter.name);
+  for (const Parameter& parameter : made->describe().parameters) add(parameter.name, model.parameters, parameter.name);
   for (const auto& mechanism : model.mechanisms)
     for (const Parameter& parameter :
          catalogue.mechanisms().find(mechanism.type)->second.factory.parameters_with(mechanism.options))
-      names.push_back(mechanism.name() + '.' + parameter.name);
-  std::vector<double> values;
-  for (const std::string& name : names) {
-    const auto found = std::ranges::find(parameters, name, &Parameters::value_type::first);
-    const double value = found == parameters.end() ? NAN : report::number(found->second, "value");
-    if (!std::isfinite(value))
-      throw InputError(
-          fmt::format("model '{}': the parameter '{}' has no finite value; run it again", model.name, name));
-    values.push_back(value);
-  }
-  return values;
+      add(mechanism.name() + '.' + parameter.name, mechanism.parameters, parameter.name);
+  return parameters;
 }
 
 }  // namespace
@@ -161,12 +158,14 @@ FittedMaterial fitted_material(const ExportRequest& request, const plugins::Cata
   const auto names = models_of(run, models);
   fitted.name = chosen_model(names, request.model, fitted.run, file);
   const experiment::ModelEntry model = model_entry(folder / "input.json", fitted.name, catalogue);
-  const Parameters parameters = own_parameters(run, fitted.name, names.size() > 1);
   std::vector<cards::Ingredient> mechanisms;
   for (const auto& mechanism : model.mechanisms) mechanisms.push_back({mechanism.type, mechanism.options});
+  Parameters parameters;
   try {
-    fitted.material =
-        cards::material_of(catalogue, {model.type, model.options}, mechanisms, values_of(model, catalogue, parameters));
+    parameters = own_parameters(model, catalogue, run, names.size() > 1);
+    std::vector<double> values;
+    for (const auto& [name, entry] : parameters) values.push_back(report::number(entry, "value"));
+    fitted.material = cards::material_of(catalogue, {model.type, model.options}, mechanisms, values);
   } catch (const InputError& problem) {
     throw InputError(fmt::format("{}: {}", file, problem.what()));
   }
