@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 using trial::FittedRubber;
 
 const assembly::FreeParameter& parameter(const BoundSet& set, const std::string& name) {
-  return set.assembly().layout().parameters[index_of(set.assembly(), name)];
+  return set.assembly().layout().parameters[trial::index_named(set.assembly(), name)];
 }
 
 KindPointer shared(Kind kind) { return std::make_shared<const Kind>(std::move(kind)); }
@@ -90,8 +90,8 @@ TEST(TermsInAnExperiment, OfOneKindAreNumbered) {
   EXPECT_EQ(set.terms()[1].name, "stretches_rising_2");
   EXPECT_EQ(set.terms()[2].name, "stretches_rising_3");
   EXPECT_NE(set.terms()[0].amplitude, set.terms()[1].amplitude);
-  EXPECT_EQ(set.terms()[2].amplitude, index_of(set.assembly(), "stretches_rising_3.mu"));
-  EXPECT_EQ(set.terms()[2].shapes.front(), index_of(set.assembly(), "stretches_rising_3.alpha"));
+  EXPECT_EQ(set.terms()[2].amplitude, trial::index_named(set.assembly(), "stretches_rising_3.mu"));
+  EXPECT_EQ(set.terms()[2].shapes.front(), trial::index_named(set.assembly(), "stretches_rising_3.alpha"));
 }
 
 /// From nothing the terms are the whole model: nothing is left of what it was.
@@ -112,16 +112,16 @@ TEST(TermsInAnExperiment, FromNothingAreTheModel) {
   EXPECT_TRUE(model.mechanisms.empty());
   EXPECT_EQ(model.parameters.size(), 3U);
   EXPECT_EQ(model.options.values().size(), 1U);
-  EXPECT_EQ(set.terms()[0].amplitude, index_of(set.assembly(), "I2_linear_mu"));
-  EXPECT_EQ(set.terms()[1].amplitude, index_of(set.assembly(), "fibre_diagonal_quadratic_k"));
-  EXPECT_EQ(set.terms()[1].shapes.front(), index_of(set.assembly(), "fibre_diagonal_quadratic_theta"));
+  EXPECT_EQ(set.terms()[0].amplitude, trial::index_named(set.assembly(), "I2_linear_mu"));
+  EXPECT_EQ(set.terms()[1].amplitude, trial::index_named(set.assembly(), "fibre_diagonal_quadratic_k"));
+  EXPECT_EQ(set.terms()[1].shapes.front(), trial::index_named(set.assembly(), "fibre_diagonal_quadratic_theta"));
 }
 
-TEST(IndexOfAParameter, IsThatOfItsNameOrNone) {
+TEST(IndexOfAParameter, IsThatOfItsTermOrNone) {
   const FittedRubber rubber;
   const BoundSet set(rubber.subject, {rubber.kind("I2_linear")});
-  EXPECT_EQ(set.assembly().layout().parameters[index_of(set.assembly(), "mu")].name, "mu");
-  EXPECT_THROW((void)index_of(set.assembly(), "I2_linear.nu"), std::logic_error);
+  EXPECT_EQ(set.terms()[0].amplitude, index_of(set.assembly(), rubber.subject, "I2_linear", "mu"));
+  EXPECT_THROW((void)index_of(set.assembly(), rubber.subject, "I2_linear", "nu"), std::logic_error);
 }
 
 }  // namespace

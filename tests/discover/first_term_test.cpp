@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "discovery/subject.hpp"
+#include "support/loaded.hpp"
 
 namespace tunica::discovery {
 namespace {
@@ -15,7 +16,7 @@ TEST(FirstTerm, StandsInThePlaceOfTheModelAndOfAllThatBelongsToIt) {
   experiment::Experiment given;
   given.models = {wall, wall};
   given.models[1].name = "other";
-  const experiment::Experiment found = with_first_terms(given, "wall", false);
+  const experiment::Experiment found = with_first_terms(given, "wall", false, *testing::catalogue().term_model());
   const experiment::ModelEntry& first = found.models.at(0);
   EXPECT_EQ(first.name, "wall");
   EXPECT_EQ(first.type, "composed");
@@ -30,7 +31,7 @@ TEST(FirstTerm, StandsInThePlaceOfTheModelAndOfAllThatBelongsToIt) {
 TEST(FirstTerm, HasOneOfTheVolumeBesideItWhereTheMaterialChangesIt) {
   experiment::Experiment given;
   given.models = {{"foam", "hyperfoam", {}, {}, {}}};
-  const experiment::Experiment found = with_first_terms(given, "foam", true);
+  const experiment::Experiment found = with_first_terms(given, "foam", true, *testing::catalogue().term_model());
   EXPECT_EQ(found.models.front().options.text("terms"),
             R"([{"name":"I1bar_linear","invariant":"I1bar","law":"linear"},)"
             R"({"name":"J_quadratic","invariant":"J","law":"quadratic"}])");

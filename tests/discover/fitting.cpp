@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "discover/fitting.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -13,7 +14,8 @@ namespace {
 
 diagnosis::Evidence evidence_of(const Rubber& rubber, const ToFit& what) {
   experiment::Experiment read = rubber.read();
-  if (what.from_nothing) read = discovery::with_first_terms(std::move(read), "rubber", false);
+  if (what.from_nothing)
+    read = discovery::with_first_terms(std::move(read), "rubber", false, *testing::catalogue().term_model());
   const diagnosis::Request request = diagnosis::request_of(read);
   const diagnosis::Progress silent;
   return diagnosis::evidence_of({read, request, testing::catalogue(), silent}, {});
@@ -62,8 +64,15 @@ double FittedRubber::measured() const {
   return std::sqrt(sum);
 }
 
+std::size_t index_named(const assembly::Assembly& assembly, const std::string& name) {
+  const auto& parameters = assembly.layout().parameters;
+  const auto found = std::ranges::find(parameters, name, &assembly::FreeParameter::name);
+  if (found == parameters.end()) throw std::logic_error("no free parameter is called '" + name + "'");
+  return static_cast<std::size_t>(found - parameters.begin());
+}
+
 std::size_t place_of(const discovery::SetFit& fit, const std::string& parameter) {
-  return discovery::index_of(fit.set->assembly(), parameter);
+  return index_named(fit.set->assembly(), parameter);
 }
 
 Measured::Hide hidden(const std::string& invariant, const std::string& law,

@@ -12,6 +12,9 @@
 
 namespace tunica::trial {
 
+/// The index of a free parameter by the name that people read; throws std::logic_error where there is none.
+std::size_t index_named(const assembly::Assembly& assembly, const std::string& name);
+
 /// What is fitted beside Rubber as it is: 300 kPa with noise of 3 kPa, which the file states.
 struct ToFit {
   Measured::Hide hide = {};                                   ///< what the data show and the model does not have

@@ -181,7 +181,7 @@ MadeUpTerms::MadeUpTerms(const std::vector<double>& levels, std::map<std::string
   if (how.two_channels) noise.push_back({"z", {.absolute = 10}});
   run.objective = experiment::ObjectiveType::least_squares;
   experiment.runs = {run};
-  experiment = discovery::with_first_terms(std::move(experiment), "m", false);
+  experiment = discovery::with_first_terms(std::move(experiment), "m", false, *shelf.term_model());
   evidence.experiment = experiment;
   evidence.run = run;
   evidence.base = std::make_shared<const assembly::Assembly>(experiment, run, shelf);
@@ -201,10 +201,13 @@ void MadeUpTerms::register_all() {
   plugins::Catalogue::Registration stage;
   fakes::register_all(stage);
   stage.mechanisms.clear();
-  stage.add(ModelFactory{
-      "composed", "", "", {Option::json("terms", "[]", "What it is made of.")}, [this](const Options& options) {
-        return make(options);
-      }});
+  stage.add(ModelFactory{"composed",
+                         "",
+                         "",
+                         {Option::json("terms", "[]", "What it is made of.")},
+                         [this](const Options& options) { return make(options); },
+                         {},
+                         true});
   MechanismFactory added = mechanism("added_term", Stage::energy);
   for (const char* option : {"invariant", "law", "family", "dispersion", "fibre_switch", "knots"})
     added.options.push_back(Option::text(option, "", "Of the term."));
@@ -223,6 +226,7 @@ void MadeUpTerms::register_all() {
     const Placed term = declared(options, description.parameters);
     return std::make_unique<Sum>(std::move(description), std::vector{term}, std::move(base));
   };
+  added.writes_terms = true;
   stage.add(std::move(added));
   if (laws_.contains("stiffer")) {
     MechanismFactory stiffening = mechanism("stiffening", Stage::energy);

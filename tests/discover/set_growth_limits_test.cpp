@@ -36,7 +36,8 @@ double promised(const FittedRubber& rubber, const SetFit& from, const KindPointe
   std::vector<double> free(parameters.size());
   if (from.set) {
     const auto& known = from.set->assembly().layout().parameters;
-    for (std::size_t k = 0; k < known.size(); ++k) free[index_of(set.assembly(), known[k].name)] = from.fit.free[k];
+    for (std::size_t k = 0; k < known.size(); ++k)
+      free[trial::index_named(set.assembly(), known[k].name)] = from.fit.free[k];
   }
   free[term.amplitude] = amplitude;
   double best = 0;

@@ -111,7 +111,7 @@ void add_optimizers(Registry& registry) {
       {"starts", Option::Kind::integer, std::int64_t{1}, "Starting points", "", 1.0, {}, {}},
       {"polish", Option::Kind::flag, true, "Refine the best", "", {}, {}, {}}};
   registry.add(OptimizerFactory{"ceres_lm", "Levenberg-Marquardt", "", lm,
-                                [](const Options&) { return std::make_unique<FakeOptimizer>(); }});
+                                [](const Options&) { return std::make_unique<FakeOptimizer>(); }, true});
 }
 
 MechanismFactory mechanism(std::string id, Stage stage, std::vector<Parameter> parameters,

@@ -94,9 +94,11 @@ std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis,
 std::string lopsided_words(const diagnosis::Evidence& evidence, const std::vector<ChannelSize>& channels) {
   constexpr double far = 0.3, several = 5;  // far: of the range
   if (!diagnosis::has_open_noise(evidence)) return {};
+  /// Of a channel whose noise is estimated.
   const auto sigma = [&](const ChannelSize& channel) {
     for (const diagnosis::NoiseSource& one : evidence.noise)
-      if (one.test == channel.test && one.channel == channel.channel) return one.noise.absolute / channel.range;
+      if (one.open() && one.test == channel.test && one.channel == channel.channel)
+        return one.noise.absolute / channel.range;
     return 0.0;
   };
   const ChannelSize *followed = nullptr, *missed = nullptr;

@@ -132,7 +132,9 @@ std::string unknown_words(const Budget& budget) {
     text += fmt::format("; that it is a smooth misfit without a listed cause has probability {:.2f}",
                         budget.unlisted_probability);
   else if (best.share < most_of_it)
-    text += ", and no cause takes half";
+    text += fmt::format(", and no {}cause takes half", all.front().is_state() ? "listed " : "");
+  if (const Contender& most = all.front(); most.is_state() && best.share < most_of_it)
+    text += fmt::format("; {}{} takes {}{}", most.id, place_of(most.place), percent(most.share), price(most));
   const Contender& likeliest = *std::max_element(
       all.begin(), all.end(), [](const Contender& a, const Contender& b) { return a.probability < b.probability; });
   if (&likeliest != &best && likeliest.probability > std::max(best.probability, 1 - sure_enough))
@@ -180,15 +182,17 @@ void withdraw_causes(diagnosis::Diagnosis& d) {
   d.prospects.next.reset();
 }
 
-/// Read otherwise, the file takes more of the misfit than any cause, or as much without a parameter: no cause is named,
-/// and the question stands first.
+/// Read otherwise, the file takes at least as much of the misfit as what would lead: no cause is named, and the
+/// question stands first.
 void ask_of_the_file(const Budget& budget, diagnosis::Diagnosis& d) {
+  const bool most =
+      std::ranges::all_of(budget.contenders, [&](const Contender& one) { return one.share <= budget.of_file.share; });
   withdraw_causes(d);
   d.explanation.verdict = Verdict::indistinguishable;
   d.explanation.reasons = {
       {ReasonKind::file_as_likely,
-       fmt::format("is what the file says so? If {}, {} of the misfit is gone, and no cause takes as much; try {}",
-                   budget.of_file.sentence, percent(budget.of_file.share), budget.of_file.mend)},
+       fmt::format("is what the file says so? If {}, {} of the misfit is gone{}; try {}", budget.of_file.sentence,
+                   percent(budget.of_file.share), most ? ", and no cause takes more" : "", budget.of_file.mend)},
       {ReasonKind::unlisted_misfit, unknown_words(budget)}};
 }
 
@@ -263,8 +267,9 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
   if (budget.contenders.empty()) return d;
   Decision decision = decided(budget);
   Explanation& explanation = d.explanation;
-  if (const double most = decision.first.empty() ? budget.contenders.front().share : decision.first.front()->share;
-      budget.of_file.worth >= std::max(most_of_it, most)) {
+  double most = decision.first.empty() ? budget.contenders.front().share : 0;
+  for (const Contender* one : decision.first) most = std::max(most, one->share);
+  if (budget.of_file.worth >= std::max(most_of_it, most)) {
     ask_of_the_file(budget, d);
     return d;
   }

@@ -126,7 +126,7 @@ void Fitter::begin_with(const std::vector<KindPointer>& kinds) {
     std::vector<double> start = start_of(root_, *set->set);
     const auto& known = evidence_.base->layout().parameters;
     for (std::size_t k = 0; k < known.size(); ++k)
-      start[*set->set->assembly().layout().index_of(known[k].places.front())] = evidence_.fit.free[k];
+      start[set->set->assembly().layout().index_of(known[k].places.front()).value()] = evidence_.fit.free[k];
     fit = fitted(std::move(*set), start);
   }
   if (!fit)

@@ -19,7 +19,7 @@ namespace {
 std::string optimizer_of(Experiment& experiment, const std::string& asked, const plugins::Catalogue& catalogue) {
   if (!asked.empty()) return asked;
   const auto* const refiner = catalogue.refiner();
-  if (refiner == nullptr) return experiment.runs.front().optimizer;
+  if (refiner == nullptr) return experiment.runs.empty() ? "" : experiment.runs.front().optimizer;
   for (const experiment::OptimizerEntry& entry : experiment.optimizers)
     if (entry.type == refiner->factory.type) return entry.name;
   experiment::OptimizerEntry entry;
