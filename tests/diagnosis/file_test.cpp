@@ -188,7 +188,10 @@ TEST(File, TheGainOfOneDirectionOfAllSheetsIsFoundAndMended) {
   expect_calibration(found, "sheet_force_scale_error", {"sheet_1", "sheet_2", "sheet_3"}, 0.25);
   const auto files = diagnosis::mended_files(found, wall.folder.path(), testing::catalogue());
   ASSERT_EQ(files.size(), 1u) << "the numbers stay what they are";
-  wall.folder.write(files.front().name, files.front().text);
+  const auto mended =
+      experiment::read_experiment(wall.folder.write(files.front().name, files.front().text), testing::catalogue());
+  for (const char* const sheet : {"sheet_1", "sheet_2", "sheet_3"})
+    EXPECT_EQ(mended.test(sheet).mechanisms.front().parameters.at("gain").share, "sheet_force_scale_error_gain");
   EXPECT_EQ(wall.diagnose("mended.json").explanation.verdict, Verdict::nothing_detected);
 }
 

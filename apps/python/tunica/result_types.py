@@ -1180,7 +1180,8 @@ class FileCause(TypedDict):
     #: What to write into the file.
     mend: str
     #: The mend as a JSON Patch (RFC 6902) of the experiment file, without its comments. Left out where keys alone do
-    #: not mend it: numbers of the data, or a stated noise, would have to change too.
+    #: not mend it: numbers of the data, or a stated noise, would have to change too. Left out also where the keys are
+    #: those of numbered files, or units of several tables or of columns in several units.
     changes: NotRequired[list[FileChange]]
     #: Sum of whitened squares of the base model with the mistake mended.
     squares: float
@@ -1203,7 +1204,13 @@ class FileChange(TypedDict):
     #: Where: a JSON pointer (RFC 6901).
     path: str
     #: What is written there: a word, an object of the experiment file, or a list of them.
-    value: str | dict[str, str | float] | list[dict[str, str]]
+    value: str | dict[str, str | float | dict[str, FileShare]] | list[dict[str, str | float | dict[str, FileShare]]]
+
+
+class FileShare(TypedDict):
+    """A parameter of several tests, which is one."""
+    #: Name of what they share.
+    share: str
 
 
 class DiagnosisExtension(TypedDict):

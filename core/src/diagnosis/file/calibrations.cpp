@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "assembly/parameter_id.hpp"
 #include "diagnosis/file/changes.hpp"
 #include "diagnosis/file/correction.hpp"
 
@@ -28,17 +30,54 @@ std::vector<std::string> directions_of(const Record& record, const std::string& 
   return names.size() == 2 ? names : std::vector<std::string>();
 }
 
-void add(const Record& record, const std::string& id, const std::vector<std::string>& tests, bool common,
+/// As an extension names them: what a test has already, and the second of two, gets a number.
+void number_names(const Record& record, std::vector<Addition>& additions) {
+  int number = 1;
+  for (Addition& addition : additions) {
+    const auto taken = [&](const std::string& test) {
+      const auto& there = record.test(test).mechanisms;
+      return std::any_of(there.begin(), there.end(), [&](const auto& one) { return one.name() == addition.name(); });
+    };
+    const auto& tests = addition.place.tests;
+    do {
+      if (number > 1) addition.as = fmt::format("{}_{}", addition.id, number);
+      ++number;
+    } while (std::any_of(tests.begin(), tests.end(), taken));
+  }
+}
+
+/// Under which the tests of an addition share a parameter of it.
+std::string share_of(const Addition& addition, const Parameter& parameter) {
+  return addition.name() + "_" + parameter.name;
+}
+
+/// The addition as an entry of "mechanisms".
+std::string entry_text(const Addition& addition, const MechanismFactory& mechanism) {
+  const auto pair = [](std::string_view key, std::string_view value) {
+    return fmt::format("{}: {}", json_text(key), value);
+  };
+  std::vector<std::string> keys{pair("type", json_text(addition.id))};
+  if (!addition.place.channel.empty()) keys.push_back(pair("channel", json_text(addition.place.channel)));
+  if (!addition.as.empty()) keys.push_back(pair("as", json_text(addition.as)));
+  if (addition.place.tests.size() > 1) {
+    std::vector<std::string> shared;
+    for (const Parameter& parameter : mechanism.parameters)
+      shared.push_back(
+          pair(parameter.name, fmt::format("{{{}}}", pair("share", json_text(share_of(addition, parameter))))));
+    keys.push_back(pair("parameters", fmt::format("{{{}}}", fmt::join(shared, ", "))));
+  }
+  return fmt::format("{{{}}}", fmt::join(keys, ", "));
+}
+
+void add(const Record& record, const MechanismFactory& mechanism, const std::vector<std::string>& tests, bool common,
          const std::vector<std::string>& channels, Corrections& all) {
   Correction one{FileKind::calibration, tests, common, "", "", {}};
-  for (const std::string& channel : channels) one.additions.push_back({id, {tests, channel}, {}});
-  std::vector<std::string> written;
-  for (const std::string& channel : channels)
-    written.push_back(channel.empty() ? fmt::format("{{\"type\": \"{}\"}}", id)
-                                      : fmt::format("{{\"type\": \"{}\", \"channel\": \"{}\"}}", id, channel));
-  one.mend = fmt::format("\"mechanisms\": [{}{}] into {}", written.front(),
-                         written.size() > 1 ? ", " + written.back() : std::string(), quoted(tests));
-  for (const std::string& test : tests) add_mechanisms(record.test(test), written, one.changes);
+  for (const std::string& channel : channels) one.additions.push_back({mechanism.id, {tests, channel}, {}});
+  number_names(record, one.additions);
+  std::vector<std::string> entries;
+  for (const Addition& addition : one.additions) entries.push_back(entry_text(addition, mechanism));
+  one.mend = fmt::format("\"mechanisms\": [{}] into {}", fmt::join(entries, ", "), quoted(tests));
+  for (const std::string& test : tests) add_mechanisms(record.test(test), entries, one.changes);
   all.push_back(std::move(one));
 }
 
@@ -46,11 +85,11 @@ void add(const Record& record, const std::string& id, const std::vector<std::str
 /// where it takes one alone.
 void add_directions(const Record& record, const MechanismFactory& mechanism, const std::vector<std::string>& tests,
                     bool common, const std::vector<std::string>& directions, Corrections& all) {
-  for (const std::string& direction : directions) add(record, mechanism.id, tests, common, {direction}, all);
+  for (const std::string& direction : directions) add(record, mechanism, tests, common, {direction}, all);
   if (mechanism.by_channel)
-    add(record, mechanism.id, tests, common, directions, all);
+    add(record, mechanism, tests, common, directions, all);
   else
-    add(record, mechanism.id, tests, common, {""}, all);
+    add(record, mechanism, tests, common, {""}, all);
 }
 
 /// "axial " of "stress_axial"
@@ -85,11 +124,22 @@ void add_calibrations(const Record& record, const std::vector<std::string>& test
       if (takes_channel(mechanism))
         add_directions(record, mechanism, in, common, directions, all);
       else
-        add(record, id, in, common, {""}, all);
+        add(record, mechanism, in, common, {""}, all);
     };
     if (fit_for.size() > 1) add_in(fit_for, true);
     if (of_the_rig) continue;
     for (const std::string& test : fit_for) add_in({test}, fit_for.size() == 1 && tests.size() == 1);
+  }
+}
+
+void share_over_tests(experiment::Experiment& experiment, const std::vector<Addition>& additions,
+                      const plugins::Catalogue& catalogue) {
+  for (const Addition& addition : additions) {
+    if (addition.place.tests.size() < 2) continue;
+    for (const Parameter& parameter : catalogue.mechanisms().find(addition.id)->second.factory.parameters)
+      for (const std::string& test : addition.place.tests)
+        assembly::setting_at(experiment, assembly::of_test(test, addition.name(), parameter.name)).share =
+            share_of(addition, parameter);
   }
 }
 

@@ -62,6 +62,15 @@ bool read_as(Record& record, const std::string& test, std::string_view measure) 
   return true;
 }
 
+/// Another declaration in each test; nothing where one of them cannot have it.
+std::vector<Change> measure_changes(const Record& record, const std::vector<std::string>& tests,
+                                    std::string_view measure) {
+  std::vector<Change> changes;
+  for (const std::string& test : tests)
+    if (!change_stress_measure(record.test(test), record.observables(test), measure, changes)) return {};
+  return changes;
+}
+
 bool is_strain(const data::Quantity& quantity) {
   return quantity.observable->kind == Observable::Kind::stretch &&
          quantity.observable->role == Observable::Role::abscissa &&
@@ -119,12 +128,10 @@ void add_stress_measures(const Record& record, const std::vector<std::string>& t
     add_for_each_and_all(
         FileKind::stress_measure, others,
         [&](const std::vector<std::string>& in) -> Wording {
-          std::vector<Change> changes;
-          for (const std::string& test : in)
-            change_data(record.test(test), "stress_measure", json_text(measure.name), changes);
           return {fmt::format("the stresses of {} are {} stresses, not {} ones", quoted(in), measure.words,
                               words_of_measure(record.test(in.front()).data.stress_measure)),
-                  fmt::format("\"stress_measure\": \"{}\" in the data of {}", measure.name, quoted(in)), changes};
+                  fmt::format("\"stress_measure\": \"{}\" in the data of {}", measure.name, quoted(in)),
+                  measure_changes(record, in, measure.name)};
         },
         [&measure](Record& read, const std::string& test) { return read_as(read, test, measure.name); }, all);
   }

@@ -45,7 +45,8 @@ std::optional<std::string> unit_of_factor(const std::string& stated, double fact
   return std::nullopt;
 }
 
-/// The columns of a test that hold these numbers, and the unit that makes the factor out of the first one's.
+/// The columns of a test that hold these numbers, and the unit that makes the factor out of the one that all of them
+/// are said to have.
 struct Columns {
   std::vector<std::string> names;
   std::optional<std::string> unit;
@@ -54,6 +55,7 @@ struct Columns {
 Columns columns_of(const Record& record, const std::string& test, const Numbers& numbers, double factor) {
   const experiment::TestEntry& entry = record.test(test);
   Columns found;
+  std::set<std::string> units;
   for (const auto& [name, column] : entry.data.columns) {
     const auto quantity = data::quantity_named(name, record.observables(entry.name));
     if (!quantity) continue;
@@ -67,8 +69,9 @@ Columns columns_of(const Record& record, const std::string& test, const Numbers&
       if (source == observable && !from.second.empty()) stated = from.second;
     for (const auto& [named, own] : entry.data.layout.units)
       if (named == column) stated = own;
-    if (!found.unit) found.unit = unit_of_factor(stated, factor);
+    units.insert(stated);
   }
+  if (units.size() == 1) found.unit = unit_of_factor(*units.begin(), factor);
   return found;
 }
 
@@ -80,14 +83,13 @@ std::string mending(const Record& record, const std::vector<std::string>& tests,
                       : fmt::format("{} times {:.6g}: in a unit, an area or a thickness", where, factor);
 }
 
-/// Another unit in each test; nothing where one of them has none that makes the factor.
+/// Another unit in each test; nothing where one of them has none that makes the factor, or cannot have it.
 std::vector<Change> changes_of(const Record& record, const std::vector<std::string>& tests, const Numbers& numbers,
                                double factor) {
   std::vector<Change> changes;
   for (const std::string& test : tests) {
     const Columns columns = columns_of(record, test, numbers, factor);
-    if (!columns.unit) return {};
-    change_units(record.test(test), columns.names, *columns.unit, changes);
+    if (!columns.unit || !change_units(record.test(test), columns.names, *columns.unit, changes)) return {};
   }
   return changes;
 }

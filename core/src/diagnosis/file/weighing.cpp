@@ -91,9 +91,12 @@ FileCause cause_of(const CorrectedFit& corrected, double p_after, const plugins:
 /// The experiment as the correction reads it, or with its mechanisms.
 std::shared_ptr<const experiment::Experiment> mended(const Inquiry& inquiry, const Record& record,
                                                      const experiment::RunEntry& run, const Correction& correction) {
-  if (!correction.additions.empty())
-    return std::make_shared<const experiment::Experiment>(
-        Extension(record.experiment(), run, correction.additions, inquiry.catalogue).experiment());
+  if (!correction.additions.empty()) {
+    const Extension extension(record.experiment(), run, correction.additions, inquiry.catalogue);
+    experiment::Experiment experiment = extension.experiment();
+    share_over_tests(experiment, extension.additions(), inquiry.catalogue);
+    return std::make_shared<const experiment::Experiment>(std::move(experiment));
+  }
   Record read = record;
   if (!correction.apply(read)) return nullptr;
   return std::make_shared<const experiment::Experiment>(std::move(read.experiment()));
