@@ -13,6 +13,7 @@ import subprocess
 import time
 
 from studio_live import ACCEPT, BINARY, CLOSING, PING, PONG, TEXT, Live
+from studio_proof import a_folder_that_cannot_be_written, a_text_is_tried_without_its_servers
 from studio_server import Studio, decoded, mistaken_experiment, rig_file, slow_experiment
 
 
@@ -75,6 +76,31 @@ def predictions_on_one_connection(studio):
         with Live(studio) as live:
             live.send(TEXT, **wrong)
             assert live.receive() == (CLOSING, b""), {**wrong, "payload": len(wrong["payload"])}
+    with Live(studio) as live:
+        live.send(TEXT, json.dumps({**question, "file": "../secret.csv"}).encode())
+        kind, said = live.receive()
+        assert kind == TEXT and said.startswith(b"'../secret.csv' leaves the project"), said
+
+
+def few_connections_for_predictions(studio):
+    """Each holds a thread: beyond eight the page is refused one, and still answered by requests."""
+    def one_more():
+        for _ in range(100):  # those that were closed have their place for a moment still
+            live = Live(studio)
+            if live.status == 101:
+                return live
+            live.socket.close()
+            time.sleep(0.05)
+        raise AssertionError(f"no live connection: {live.head}")
+    held = [one_more() for _ in range(8)]
+    for _ in range(20):
+        with Live(studio) as live:
+            assert live.status == 503, live.head
+    assert studio.post("/api/project", {})[0] == 200
+    held.pop().socket.close()
+    held.append(one_more())
+    for live in held:
+        live.socket.close()
 
 
 def nothing_outside_the_project(studio, outside):
@@ -307,10 +333,13 @@ def main():
         folder.mkdir(parents=True)
     (outside / "secret.csv").write_text("stretch,stress\n1,0\n1.1,1\n1.2,3\nsecret\n")
     the_browser_is_led_by_a_file_of_its_owner(options.tunica, options.output.resolve() / "opened")
+    a_folder_that_cannot_be_written(options.tunica, options.output.resolve() / "unwritable")
     with Studio(options.tunica, project) as studio:
         only_with_the_token(studio)
         only_from_its_own_page(studio)
         predictions_on_one_connection(studio)
+        few_connections_for_predictions(studio)
+        a_text_is_tried_without_its_servers(studio)
         nothing_outside_the_project(studio, outside)
         files_are_shown_apart(studio)
         (outside / "secret.csv").unlink()

@@ -15,6 +15,8 @@ import time
 
 from browser import Browser, available
 from studio_page import Page
+from studio_parts import (a_running_job_leads_to_its_page, each_run_of_a_cohort_has_its_table, mistakes_stand_as_the_diagnosis_says, one_queue_a_connection,
+                          tests_of_the_first_specimen_that_has_them, texts_survive_leaving)
 from studio_server import Studio, cohort_of_strips, mistaken_experiment, rig_file, slow_experiment
 
 # Something is drawn on the canvas of points (0) or of lines (1) of the first chart.
@@ -192,7 +194,15 @@ def editor(page, folder):
     page.click("Save")
     page.until("return [...document.querySelectorAll('.box.bad')].length === 2")  # it is not written
     assert (folder / "strip.json").read_text() == before
-    page.browser.run("""const n = document.getElementById('text'), at = n.value.indexOf('"seeed"'); n.focus(); n.setSelectionRange(at, at + 7)""")
+    select = "const n = document.getElementById('text'), at = n.value.indexOf(arguments[0]); n.focus(); n.setSelectionRange(at, at + arguments[0].length)"
+    page.browser.run(select, '"seeed"')
+    for letter in '"seed"':  # by hand, with the list beside it
+        page.browser.devtools("Input.dispatchKeyEvent", type="keyDown", key=letter, text=letter)
+        page.browser.devtools("Input.dispatchKeyEvent", type="keyUp", key=letter)
+    page.until("return document.querySelector('.options').hidden")
+    typed = page.browser.run("return document.getElementById('text').value")
+    assert typed == before.replace('"runs"', '"seed": 3,\n  "runs"', 1), typed
+    page.browser.run(select, '"seed"')
     page.browser.devtools("Input.dispatchKeyEvent", type="keyDown", key='"', text='"')
     page.until("return !document.querySelector('.options').hidden")
     offered = page.browser.run("return [...document.querySelectorAll('.options li')].map((one) => one.textContent)")
@@ -325,10 +335,16 @@ def main():
             page.see("What came out")
             one_sheet(page)
             editor(page, folder)
+            texts_survive_leaving(page, "strip.json")
+            mistakes_stand_as_the_diagnosis_says(page, folder)
             cohort(page, options, folder)
+            each_run_of_a_cohort_has_its_table(page, folder)
             every_page_narrow_and_dark(page)
             page.check_quiet(studio.host)
             edits_change_only_what_is_shown(page)
+            one_queue_a_connection(page)
+            a_running_job_leads_to_its_page(page)
+            tests_of_the_first_specimen_that_has_them(page)
             mistaken_experiment(options.source, folder)
             mistake_taken_back(page, folder)
             nothing_acts(page, folder, studio)

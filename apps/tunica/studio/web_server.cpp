@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/web_server.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <sys/socket.h>
 
 #include "http_loop.hpp"
@@ -16,8 +18,23 @@ namespace tunica::app::studio {
 
 namespace {
 
-/// Streams of events hold a thread each, and a browser has at most six connections to a server.
-constexpr std::size_t threads = 24;
+/// Each connection holds a thread. A browser asks on at most six at a time, streams of events included. It does not
+/// count live connections so: a tab beyond `most_live` is refused one, and sends requests.
+constexpr std::size_t threads = 24, most_live = 8;
+
+/// A live connection among those of the server, while it lives.
+class LivePlace {
+ public:
+  explicit LivePlace(std::atomic<std::size_t>& taken) : taken_(taken), free_(taken.fetch_add(1) < most_live) {}
+  ~LivePlace() { --taken_; }
+  LivePlace(const LivePlace&) = delete;
+  LivePlace& operator=(const LivePlace&) = delete;
+  [[nodiscard]] bool is_free() const { return free_; }
+
+ private:
+  std::atomic<std::size_t>& taken_;
+  bool free_;
+};
 
 WebRequest request_of(const httplib::Request& request) {
   return {request.method,
@@ -75,7 +92,7 @@ class Server final : public ConnectionServer {
         answer = service_.answer(request_of(request));
       }
       if (answer.events) stream(answer, connection(), service_.over);
-      if (answer.live) talk(connection(), request.get_header_value("Sec-WebSocket-Key"), answer.live, service_.over);
+      if (answer.live) answer = held(answer, request.get_header_value("Sec-WebSocket-Key"));
       hand_over(std::move(answer), response);
     };
     Get(".*", reply);
@@ -90,7 +107,20 @@ class Server final : public ConnectionServer {
   }
 
  private:
+  /// Returns once the live connection has ended, or where there are too many.
+  WebReply held(const WebReply& reply, const std::string& key) {
+    const LivePlace place(live_);
+    if (place.is_free())
+      talk(connection(), key, reply.live, service_.over);
+    else
+      return {503, "text/plain; charset=utf-8",
+              fmt::format("{} live connections are open, and no more are held; close a tab, or send requests\n",
+                          most_live)};
+    return {400, "text/plain; charset=utf-8"};
+  }
+
   const WebService& service_;
+  std::atomic<std::size_t> live_ = 0;
 };
 
 }  // namespace

@@ -102,11 +102,8 @@ void talk(HttpConnection& connection, const std::string& key, const std::functio
                         "Sec-WebSocket-Accept: " +
                             accept_of(key) + "\r\n\r\n");
   auto last = std::chrono::steady_clock::now();
-  while (open && !over()) {
-    if (!connection.wait_for_request(over)) {
-      open = std::chrono::steady_clock::now() - last < patience;
-      continue;
-    }
+  while (open && !over() && std::chrono::steady_clock::now() - last < patience) {
+    if (!connection.wait_for_request(over)) continue;
     auto frame = read_frame(connection);
     if (frame && frame->kind == text) {
       WebReply reply;

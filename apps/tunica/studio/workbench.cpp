@@ -152,7 +152,14 @@ std::string hash_of(const std::string& text) { return fmt::format("{:016x}", std
 struct Trial {
   fs::path file;
   Trial(const fs::path& beside, const std::string& text) : file(beside.parent_path() / passing_name()) {
-    execution::write_atomically(file, text);
+    try {
+      execution::write_atomically(file, text);
+    } catch (const execution::WriteFailure& problem) {
+      throw InputError(fmt::format(
+          "{}: a text is tried in a file beside this one, and none can be written there; make that folder writable, or "
+          "free some space. {}",
+          beside.string(), named(problem.what(), "That file")));
+    }
   }
   ~Trial() {
     std::error_code none;
@@ -162,8 +169,9 @@ struct Trial {
   Trial& operator=(const Trial&) = delete;
   /// What is said of it, said of the other file.
   [[nodiscard]] std::string named(std::string words, const std::string& name) const {
-    if (const auto at = words.find(file.string()); at != std::string::npos)
-      words.replace(at, file.string().size(), name);
+    const std::string own = file.string();
+    for (auto at = words.find(own); at != std::string::npos; at = words.find(own, at + name.size()))
+      words.replace(at, own.size(), name);
     return words;
   }
 };
@@ -240,7 +248,7 @@ json Workbench::save(const std::string& name, const std::string& hash, const Wri
 json Workbench::proof(const std::string& name, const std::string& text) const {
   const Trial trial(file_inside(name), text);
   try {
-    const auto experiment = read_confined(session_, trial.file);
+    const auto experiment = calibration::offline(read_confined(session_, trial.file));
     static_cast<void>(execution::make_plan(experiment, session_.catalogue()));
     return {{"error", nullptr}};
   } catch (const experiment::PlacedError& problem) {

@@ -40,7 +40,8 @@ class Workbench {
   /// another hash than document() gave.
   nlohmann::ordered_json save(const std::string& file, const std::string& hash, const Written& written);
   /// What the program says of a text in the place of the file: {"error": null or words, "line", "column"}, the place
-  /// null where the error has none. Writes nothing.
+  /// null where the error has none. Starts no program and asks no server. Writes a file beside it, which goes again.
+  /// Throws InputError where none can be written there.
   [[nodiscard]] nlohmann::ordered_json proof(const std::string& file, const std::string& text) const;
 
   /// {"name", "runs": [{"entry": number within "runs" of the file, "label", "model", "optimizer", "parameters": [{name,

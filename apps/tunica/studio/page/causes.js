@@ -3,7 +3,7 @@
 import { bars } from "./bars.js";
 import { add, attempt, check, el, panel, put, shell } from "./dom.js";
 import { newest, reportLink, sheetLink, watchJob } from "./jobs.js";
-import { mistakesOf } from "./readings.js";
+import { asksFile, mistakesOf } from "./readings.js";
 import { ask, project, result } from "./server.js";
 import { missed, number, percent, plain, quoted, unit, verdicts } from "./words.js";
 
@@ -39,12 +39,12 @@ function accept(folder, entry, place) {
 
 async function found(folder, entry, name) {
   const { diagnosis, warnings } = await result(folder), place = el("div");
-  const likely = diagnosis.causes ?? [], mistakes = await mistakesOf(name, diagnosis);
+  const likely = diagnosis.causes ?? [], mistakes = await mistakesOf(name, diagnosis), first = asksFile(diagnosis);
   add(place, el("p", { class: "verdict" }, verdicts[diagnosis.verdict] ?? diagnosis.verdict), [...(diagnosis.reasons ?? []), ...(diagnosis.explanations ?? [])].map((words) => el("p", {}, words)),
-    mistakes, budgetOf(diagnosis.budget, diagnosis.base?.model ?? "the model"),
+    first ? mistakes : "", budgetOf(diagnosis.budget, diagnosis.base?.model ?? "the model"),
     diagnosis.admissibility?.where ? el("div", { class: "box bad" }, el("strong", {}, "Stability is lost: "), diagnosis.admissibility.where, diagnosis.admissibility.remedy ? `; ${plain(diagnosis.admissibility.remedy)} restores it` : "") : "",
     likely.length ? [el("h3", {}, "Causes"), el("ul", { class: "plain" }, likely.map(causeLine))] : "",
-    (entry?.leads_to ?? []).map((one) => accept(folder, one, place)),
+    first ? "" : mistakes, (entry?.leads_to ?? []).map((one) => accept(folder, one, place)),
     diagnosis.next_experiment?.description ? [el("h3", {}, "Next experiment"), el("p", {}, diagnosis.next_experiment.description)] : "",
     warnings?.length ? el("details", {}, el("summary", {}, `${warnings.length} warnings`), el("ul", {}, warnings.map((line) => el("li", {}, line)))) : "",
     el("div", { class: "row" }, reportLink(folder), sheetLink(folder)));

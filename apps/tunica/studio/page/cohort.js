@@ -29,10 +29,15 @@ function specimensOf(document, rows, run) {
 const worst = (key) => (a, b) => (b[key] ?? Infinity) - (a[key] ?? Infinity) || a.id.localeCompare(b.id);
 const orders = { misfit: ["misfit over noise, worst first", worst("misfit")], rest: ["1 − R², worst first", worst("rest")], id: ["name", (a, b) => a.id.localeCompare(b.id, undefined, { numeric: true })] };
 
-/** Tests and channels of a run, of the first specimen that is asked for: all have the same ones. */
-function testsOf(run) {
-  let first = null;
-  return (folder) => (first ??= result(folder).then((document) => document.runs.find((entry) => entry.run === run)?.best?.per_test, (error) => { first = null; throw error; }));
+/** Tests and channels of a run, of the first specimen that has a fit of it: all have the same ones. */
+export function testsOf(run) {
+  let known, last = Promise.resolve();
+  const own = async (folder) => (await result(folder)).runs.find((entry) => entry.run === run)?.best?.per_test;
+  return (folder) => {
+    const mine = last.then(async () => (known ??= await own(folder)));
+    last = mine.catch(() => {}); // the next one asks for itself
+    return mine;
+  };
 }
 
 function tile(one, folder, run, tests) {
@@ -44,7 +49,7 @@ function tile(one, folder, run, tests) {
     node.begin = null;
     if (one.outcome !== "fitted") return;
     try {
-      put(place, (await curvesOf(own, run, await tests(own), { small: true, height: 130 }))[0]);
+      put(place, (await curvesOf(own, run, await tests(own), { small: true, height: 130 }))[0] ?? el("small", {}, "no fit of this run"));
     } catch (error) {
       put(place, el("small", {}, error.message));
     }
@@ -63,7 +68,7 @@ function populationTable(population) {
 export async function cohortPage(place, all, folder) {
   const [document, text] = await Promise.all([result(folder), file(`${folder}/specimens.csv`)]);
   if (!document.cohort) throw new Error(`${folder} holds no cohort; open it from the history`);
-  const rows = table(text), runs = document.cohort.populations.map((one) => one.run), grid = el("ul", { class: "grid" }), count = el("p", { role: "status" });
+  const rows = table(text), runs = document.cohort.populations.map((one) => one.run), grid = el("ul", { class: "grid" }), common = el("div"), count = el("p", { role: "status" });
   const inSight = new IntersectionObserver((entries) => entries.forEach((entry) => entry.isIntersecting && entry.target.begin?.()), { rootMargin: "300px" });
   const known = specimensOf(document, rows, runs[0]).some((one) => one.misfit !== null);
   const run = choice(runs.map((one) => [one, one]), runs[0], { onchange: () => made() });
@@ -76,6 +81,7 @@ export async function cohortPage(place, all, folder) {
     const tests = testsOf(run.value);
     tiles = new Map(specimens.map((one) => [one, tile(one, folder, run.value, tests)]));
     tiles.forEach((node) => inSight.observe(node));
+    put(common, populationTable(document.cohort.populations.find((one) => one.run === run.value)));
     const codes = new Map(specimens.flatMap((one) => one.tags).map(([code, words]) => [code, words])), chosen = filter.value;
     put(filter, el("option", { value: "" }, `all ${specimens.length}`), [...codes].map(([code, words]) =>
       el("option", { value: code }, `${words} (${specimens.filter((one) => one.tags.some(([own]) => own === code)).length})`)));
@@ -93,6 +99,6 @@ export async function cohortPage(place, all, folder) {
     document.warnings.length ? el("details", { class: "box bad" }, el("summary", {}, `${document.warnings.length} warnings`), el("ul", {}, document.warnings.map((line) => el("li", {}, line)))) : "",
     diagnosis ? panel("What the model gets wrong in all of them", diagnosis.sentences.map((words, k) => el("p", k ? {} : { class: "verdict" }, words))) : "",
     panel("Specimens", el("div", { class: "row" }, runs.length > 1 ? field("Run", run) : "", field("Sorted by", order), field("Show", filter), reportLink(folder, "Report of the cohort")), count, grid,
-      populationTable(document.cohort.populations[0]), shell(`tunica report ${quoted(folder)}`)));
+      common, shell(`tunica report ${quoted(folder)}`)));
   return () => inSight.disconnect();
 }

@@ -9,14 +9,17 @@ import { quoted } from "./words.js";
 const lineHeight = 20;
 let schema = null;
 const schemaOf = async () => (schema ??= await (await post("schema", {})).json());
+/** Texts that nobody has saved, by file, with what the file was: they outlive the page of the editor, and come back with it. */
+const unsaved = new Map();
+addEventListener("beforeunload", (event) => { if (unsaved.size) event.preventDefault(); });
 
 export async function editorPage(place, all, name) {
-  const read = await ask("document", { file: name }), rules = await schemaOf();
+  const left = unsaved.get(name), read = left?.read ?? await ask("document", { file: name }), rules = await schemaOf();
   const area = el("textarea", { id: "text", spellcheck: false, wrap: "off", rows: 30, "aria-label": `Text of ${name}`, "aria-autocomplete": "list", autocomplete: "off", autocapitalize: "off" });
   const numbers = el("pre", { class: "numbers", "aria-hidden": "true" }), list = el("ul", { class: "options", role: "listbox", id: newId(), hidden: true, "aria-label": "What may stand here" });
   const about = el("p", { class: "muted", role: "status" }), said = el("div", { role: "status" }), failed = el("div");
   let offered = null, chosen = 0, wrong = null;
-  area.value = read.text;
+  area.value = left?.text ?? read.text;
   area.setAttribute("aria-controls", list.id);
 
   const lineOf = (offset) => { const before = area.value.slice(0, offset).split("\n"); return [before.length, before.at(-1).length]; };
@@ -74,7 +77,9 @@ export async function editorPage(place, all, name) {
     showNumbers();
   }, 500);
 
+  const note = () => { if (area.value === read.text) unsaved.delete(name); else unsaved.set(name, { text: area.value, read }); };
   area.addEventListener("input", () => {
+    note();
     showNumbers();
     proved([]);
     if (offered) offer();
@@ -84,10 +89,15 @@ export async function editorPage(place, all, name) {
   area.addEventListener("keydown", (event) => {
     if (event.key === " " && event.ctrlKey) { event.preventDefault(); offer(); return; }
     if ((event.ctrlKey || event.metaKey) && event.key === "s") { event.preventDefault(); keep(false); return; }
-    if (event.key === '"' && !offered) { // both quotation marks, and what may stand between them
-      const at = area.selectionStart;
+    const at = area.selectionStart;
+    if (event.key === '"' && area.value[at] === '"' && area.selectionEnd === at) { // it is there already
       event.preventDefault();
-      if (area.value[at] === '"' && area.selectionEnd === at) { area.setSelectionRange(at + 1, at + 1); return; }
+      area.setSelectionRange(at + 1, at + 1);
+      close();
+      return;
+    }
+    if (event.key === '"' && !offered) { // both quotation marks, and what may stand between them
+      event.preventDefault();
       document.execCommand("insertText", false, '""');
       area.setSelectionRange(at + 1, at + 1);
       offer();
@@ -107,18 +117,18 @@ export async function editorPage(place, all, name) {
     else if (["ArrowLeft", "ArrowRight", "Home", "End"].includes(event.key)) close();
   });
   const keep = (as_new) => attempt(failed, async () => {
-    const { file } = await ask("save", { file: name, hash: read.hash, text: area.value, as_new });
+    const text = area.value, { file } = await ask("save", { file: name, hash: read.hash, text, as_new });
+    if (area.value === text) unsaved.delete(name);
     notice(file === name ? `${name} is saved` : `saved as ${file}`);
-    if (file === name) Object.assign(read, await ask("document", { file: name })); else location.hash = `#/file/${encodeURIComponent(file)}`;
+    if (file === name) { Object.assign(read, await ask("document", { file: name })); note(); } else location.hash = `#/file/${encodeURIComponent(file)}`;
   });
   add(place, el("h1", {}, name), panel("The experiment file", el("p", { class: "muted" }, "Comments are kept. Names and values that may stand at the caret come with a quotation mark, or with Ctrl+Space."),
+    left ? el("div", { class: "box" }, el("p", {}, "This text was left unsaved."), el("button", { onclick: () => { unsaved.delete(name); dispatchEvent(new HashChangeEvent("hashchange")); } }, "Take the text of the file")) : "",
     el("div", { class: "editor" }, numbers, area, list), about, said, failed,
     el("div", { class: "row" }, el("button", { class: "main", onclick: () => keep(false) }, "Save"), el("button", { onclick: () => keep(true) }, "Save as a copy"), el("a", { class: "button", href: `#/model/${encodeURIComponent(name)}` }, "To the curves")),
     shell(`tunica check ${quoted(name)}`)));
   close();
   showNumbers();
   proved([]);
-  const unsaved = (event) => { if (area.value !== read.text) event.preventDefault(); };
-  addEventListener("beforeunload", unsaved);
-  return () => removeEventListener("beforeunload", unsaved);
+  return () => { if (unsaved.has(name)) notice(`${name} is not saved; its text is kept while this page is open, and comes back with the editor`); };
 }

@@ -5,10 +5,13 @@ import { attempt, el, shell } from "./dom.js";
 import { ask, follow, view } from "./server.js";
 import { number, states, when } from "./words.js";
 
+/** The page that shows a job while it runs. */
+const pageOf = (job) => (job.verb === "discover" ? "causes" : job.verb !== "diagnose" ? "fit" : job.readings ? "model" : "causes");
+
 export function jobLine(job) {
   const line = el("li", {}, el("code", {}, job.command), el("span", { class: "tag" }, states[job.state]), el("small", {}, when(job.started)));
   const go = (kind) => `#/${kind}/${encodeURIComponent(job.experiment)}`;
-  if (job.state === "running") line.append(el("a", { href: go(job.verb === "diagnose" ? "causes" : "fit") }, "show"));
+  if (job.state === "running" && job.experiment) line.append(el("a", { href: go(pageOf(job)) }, "show"));
   if (job.resumable)
     line.append(el("button", { onclick: () => attempt(line, async () => {
       await ask("start", { verb: "run", resume: job.id });

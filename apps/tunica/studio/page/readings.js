@@ -11,10 +11,21 @@ import { number, quoted } from "./words.js";
 /** The measure that a mend writes, for its picture. */
 const measureOf = (one) => one.changes?.find((change) => change.path.endsWith("/stress_measure"))?.value;
 
-/** |r|² of the base model, and with the mistake mended. */
-function mistake(name, read, base, one) {
-  const place = el("li", { class: "mistake" }, picture(measureOf(one)) ?? "", el("div", {}, el("strong", {}, `If ${one.sentence}, this fits ${number(base / one.squares, 2)} times better`), el("p", {}, el("small", {}, one.mend))));
-  if (!one.changes) return place; // a column has to be changed, by hand
+/** Whether the diagnosis asks for a mistake of the file before any cause: by its likelihood, or because it takes most of the misfit. */
+export const asksFile = ({ file, reason_codes = [] }) =>
+  ["near", "ahead"].includes(file?.standing) || reason_codes.some((code) => code === "file_as_likely" || code === "file_suspected");
+
+/** How many times better a diagnosis fits with a mistake mended. */
+export const gainOf = (diagnosis, one) => (diagnosis.base?.squares ?? 0) / one.squares;
+
+/** Mistakes of the file that gain something, the likeliest first. */
+export const gaining = (diagnosis) =>
+  (diagnosis.file?.causes ?? []).filter((one) => one.probability > 0.01 && gainOf(diagnosis, one) > 2 && !one.amplitudes?.every((size) => size === 0));
+
+/** With a button where the diagnosis asks for it. */
+function mistake(name, read, diagnosis, one) {
+  const place = el("li", { class: "mistake" }, picture(measureOf(one)) ?? "", el("div", {}, el("strong", {}, `If ${one.sentence}, this fits ${number(gainOf(diagnosis, one), 2)} times better`), el("p", {}, el("small", {}, one.mend))));
+  if (!one.changes || !asksFile(diagnosis)) return place; // without changes a column has to be changed, by hand
   place.append(el("button", { onclick: () => attempt(place, async () => {
     const { file } = await save(name, read, patched(read.document, one.changes), true);
     await ask("start", { verb: "run", experiment: file });
@@ -25,10 +36,12 @@ function mistake(name, read, base, one) {
 
 /** Those of a diagnosis that gain something, with a heading; nothing where there are none. */
 export async function mistakesOf(name, diagnosis) {
-  const base = diagnosis.base?.squares ?? 0, list = (diagnosis.file?.causes ?? []).filter((one) => one.probability > 0.01 && base > 2 * one.squares && !one.amplitudes?.every((size) => size === 0)).slice(0, 5);
+  const list = gaining(diagnosis).slice(0, 5);
   if (!list.length) return "";
   const read = await ask("document", { file: name });
-  return [el("h3", {}, "What the file may say that is not so"), el("ul", { class: "plain" }, list.map((one) => mistake(name, read, base, one)))];
+  return [el("h3", {}, "What the file may say that is not so"),
+    asksFile(diagnosis) ? "" : el("p", { class: "muted" }, "The diagnosis does not ask for these: each leaves more than noise, or another cause is likelier."),
+    el("ul", { class: "plain" }, list.map((one) => mistake(name, read, diagnosis, one)))];
 }
 
 export function readingsPanel(all, name) {

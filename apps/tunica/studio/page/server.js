@@ -2,14 +2,18 @@
 // What the page asks of the server. Errors carry the words of the program.
 let viewed = "/";
 
-async function whole(response) {
-  if (response.ok) return response;
-  const text = await response.text();
+/** What a refusal says: the "error" of JSON, or a plain text as it is. */
+export function refusal(text) {
   let words = text;
   try {
     words = JSON.parse(text).error ?? text;
-  } catch {} // a refusal is plain text
-  throw new Error(typeof words === "string" ? words : words.message);
+  } catch {} // it is plain text
+  return new Error(typeof words === "string" ? words : words.message ?? text);
+}
+
+async function whole(response) {
+  if (response.ok) return response;
+  throw refusal(await response.text());
 }
 
 async function reach(path, options) {

@@ -3,6 +3,7 @@
 import { budgetOf, causeLine } from "./causes.js";
 import { curvesOf } from "./curves.js";
 import { add, el, put, shell } from "./dom.js";
+import { asksFile, gaining, gainOf } from "./readings.js";
 import { result } from "./server.js";
 import { missed, number, percent, plain, quoted, unit, verdicts } from "./words.js";
 
@@ -37,11 +38,11 @@ async function ofRun(folder, document) {
 }
 
 function ofDiagnosis({ diagnosis }) {
-  const causes = diagnosis.causes ?? [], file = diagnosis.file?.causes ?? [], base = diagnosis.base?.squares ?? 0;
+  const causes = diagnosis.causes ?? [], file = asksFile(diagnosis) ? gaining(diagnosis).slice(0, 3) : [];
   return [el("p", { class: "verdict" }, verdicts[diagnosis.verdict] ?? plain(diagnosis.verdict)), (diagnosis.reasons ?? []).slice(0, 3).map((words) => el("p", {}, words)),
     budgetOf(diagnosis.budget, diagnosis.base?.model ?? "the model"),
     causes.length ? [el("h2", {}, "Causes"), el("ul", { class: "plain" }, causes.slice(0, most.causes).map(causeLine)), more(causes, most.causes, "causes")] : "",
-    file.length && diagnosis.file.standing !== "far" ? [el("h2", {}, "What the file may say that is not so"), el("ul", {}, file.slice(0, 3).map((one) => el("li", {}, `${one.sentence}: fits ${number(base / one.squares, 2)} times better; write ${one.mend}`)))] : "",
+    file.length ? [el("h2", {}, "What the file may say that is not so"), el("ul", {}, file.map((one) => el("li", {}, `${one.sentence}: fits ${number(gainOf(diagnosis, one), 2)} times better; write ${one.mend}`)))] : "",
     diagnosis.next_experiment?.description ? [el("h2", {}, "Next experiment"), el("p", {}, diagnosis.next_experiment.description)] : ""];
 }
 
