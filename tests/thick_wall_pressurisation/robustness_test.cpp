@@ -153,8 +153,12 @@ TEST(TubeRobustness, ManyRowsAreWhereFewOnAFineRuleAre) {
                     .axial_stretch = between(1, 1.5)};
     const std::vector<double> pressure = evenly(0, between(10, 25), n);
     const std::size_t columns = 3 * (p.size() + own.size());
-    std::vector<double> values(3 * n), jacobian(columns * n);
-    ASSERT_TRUE(make_tube(pressure, setup)->predict({*model, p, own}, {values, jacobian, {}, {}}).ok()) << draw;
+    std::vector<double> values(3 * n), jacobian(columns * n), without_jacobian(3 * n);
+    const auto whole = make_tube(pressure, setup);
+    ASSERT_TRUE(whole->predict({*model, p, own}, {values, jacobian, {}, {}}).ok()) << draw;
+    ASSERT_TRUE(whole->predict({*model, p, own}, {without_jacobian, {}, {}, {}}).ok()) << draw;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      ASSERT_NEAR(values[i], without_jacobian[i], 1e-13 * std::abs(values[i])) << "draw " << draw << ", value " << i;
     setup.options.set("gauss_points", std::int64_t{60});
     for (std::size_t first = 0; first < n; first += few) {
       const auto part = make_tube({pressure.begin() + first, pressure.begin() + first + few}, setup);
@@ -170,6 +174,7 @@ TEST(TubeRobustness, ManyRowsAreWhereFewOnAFineRuleAre) {
         }
       };
       compare(values, alone, 1e-11);
+      compare(without_jacobian, alone, 1e-11);
       compare(jacobian, by, 1e-9);
     }
   }

@@ -293,6 +293,12 @@ Status predict_elastic(const Tube& tube, const Rule* rule, const TestInput& inpu
   };
   constexpr double any = std::numeric_limits<double>::infinity();
   const std::span<const Rule> all = rules();
+  const auto too_sharp = [&] {
+    return Status::failed(
+        "thick_wall_pressurisation: the stress varies too sharply through the wall to integrate it, "
+        "within row 1 to " +
+        std::to_string(pressure.size()));
+  };
   std::size_t k = whole ? 3 : 2;  // good enough for most walls
   for (bool found = false; rule == nullptr;) {
     const bool finest = k + 1 == all.size();
@@ -300,31 +306,32 @@ Status predict_elastic(const Tube& tube, const Rule* rule, const TestInput& inpu
     found = status.ok();
     if (!found && k >= confirming) return status;
     if (found && solution.error <= (finest ? tolerable_error : quadrature_error)) break;
-    if (found && finest)
-      return Status::failed(
-          "thick_wall_pressurisation: the stress varies too sharply through the wall to integrate it, "
-          "within row 1 to " +
-          std::to_string(pressure.size()));
+    if (found && finest) return too_sharp();
     k = found ? finer(all, k, solution.error) : confirming;
   }
   if (rule != nullptr)
     if (Status status = solve(*rule, any, false); !status.ok()) return status;
-  if (!derivatives) return write_rows(tube, wall, solution.rows, output);
+  // Before derivatives evaluate the rows anew, maybe less exactly: values are the same with a Jacobian and without.
+  Status status = write_rows(tube, wall, solution.rows, output);
+  if (!derivatives || !status.ok()) return status;
 
-  const auto differentiated = [&] {
-    return differentiate(tube, wall, sector, solution, sections, input.model_parameters.size(), output.jacobian,
-                         output.abscissa_derivative);
-  };
-  if (whole && parameters) {  // each layer, half as thick, needs fewer points than the whole
+  const bool in_layers = whole && parameters;
+  if (in_layers) {  // each layer, half as thick, needs fewer points than the whole
     k -= 2;
     sections.begin(layers, wall, all[k]);
   }
-  Status status = differentiated();
-  while (status.ok() && whole && parameters && solution.error > derivative_error && ++k < all.size()) {
-    sections.begin(layers, wall, all[k]);
-    status = differentiated();
+  const auto differentiated = [&] {
+    status = differentiate(tube, wall, sector, solution, sections, input.model_parameters.size(), output.jacobian,
+                           output.abscissa_derivative);
+    return status.ok();
+  };
+  while (differentiated() && in_layers) {
+    const bool finest = k + 1 == all.size();
+    if (solution.error <= (finest ? tolerable_error : derivative_error)) break;
+    if (finest) return too_sharp();
+    sections.begin(layers, wall, all[++k]);
   }
-  return status.ok() ? write_rows(tube, wall, solution.rows, output) : status;
+  return status;
 }
 
 }  // namespace tunica::thick_wall

@@ -47,7 +47,7 @@ Status differentiate(const Tube& tube, const Wall& wall, const SectorDerivative&
                      std::span<double> abscissa_derivative);
 
 /// A material without history: all of the above, with the coarsest rule that is good to 1e-12 of the radius, or with
-/// the one that was asked for.
+/// the one that was asked for. Values are the same with derivatives and without; derivatives may have a coarser rule.
 Status predict_elastic(const Tube& tube, const Rule* rule, const TestInput& input, const TestOutput& output);
 
 /// Pressure and axial stretch of every row, abscissae corrected by mechanisms and by the axial stretch error.
