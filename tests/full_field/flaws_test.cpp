@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flaws of a sheet and of how it is held: where they are parameters, their derivatives, and a state that they leave.
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -44,6 +46,10 @@ TEST(FlawedSheet, HasTheFlawsThatItsEdgesCanShow) {
             and_uneven({"grip_tilt", "oblique_pull"}));
   EXPECT_EQ(with(R"({"left": {"x": "fixed"}, "right": {"x": "uniform"}, "bottom": {"y": "fixed"}})"),
             and_uneven({"grip_tilt"}));
+  EXPECT_EQ(with(R"({"right": {"x": "uniform", "y": "fixed"}})"), uneven) << "nothing holds the left side";
+  EXPECT_EQ(with(R"({"left": "fixed", "right": {"x": "uniform", "y": "fixed"}, "top": {"y": "fixed"}})"),
+            and_uneven({"clamp_slip", "grip_tilt"}))
+      << "the upper side guides y";
 }
 
 /// A sheet drawn out between clamps, as a material has it that has these flaws.
@@ -105,6 +111,111 @@ TEST(FlawedSheet, DerivativesByFlawsAreThoseOfDifferences) {
       }
     }
   }
+}
+
+// Of the last step: the right side moves by L in its middle.
+TEST(FlawedSheet, EdgesMoveAsTheAmplitudesSay) {
+  constexpr std::size_t last = 81, low = last + 72, middle = last + 76, high = last + 80;  // of the right side
+  const auto uy = [](std::size_t at) { return at + 2 * 81 + 2; };
+  for (const double size : {-0.04, 0.0, 0.07}) {
+    const double slip = std::abs(size), tilt = 2 * size, degrees = 100 * size;
+    const Flawed sheet({slip, tilt, degrees, 0, 0, 0, 0});
+    ASSERT_EQ(sheet.measured.x[high], 7);
+    ASSERT_EQ(sheet.measured.y[high], 7);
+    ASSERT_EQ(sheet.measured.y[middle], 4);
+    const std::vector<double> u = sheet.values({slip, tilt, degrees, 0, 0, 0, 0});
+    const double L = u[middle];
+    EXPECT_GT(L, 1);
+    EXPECT_NEAR(u[high], L * (1 + tilt), 1e-9);
+    EXPECT_NEAR(u[low], L * (1 - tilt), 1e-9);
+    for (const std::size_t at : {low, middle, high})
+      EXPECT_NEAR(u[uy(at)], L * std::tan(degrees * std::numbers::pi / 180), 1e-9);
+    for (const std::size_t at : {last, last + 4, last + 8}) {  // of the left side
+      EXPECT_NEAR(u[at], slip * L, 1e-9);
+      EXPECT_NEAR(u[uy(at)], 0, 1e-9);
+    }
+  }
+}
+
+// Whatever side it is, an oblique pull has the same sign in x and y, and the upper or right end of a tilted side goes
+// farther.
+TEST(FlawedSheet, EverySideMovesAsTheAmplitudesSay) {
+  constexpr std::array<const char*, 4> boundaries{R"({"right": "fixed", "left": {"x": "uniform", "y": "fixed"}})",
+                                                  clamped,
+                                                  R"({"top": "fixed", "bottom": {"x": "fixed", "y": "uniform"}})",
+                                                  R"({"bottom": "fixed", "top": {"x": "fixed", "y": "uniform"}})"};
+  constexpr double tilt = 0.1, degrees = 5;
+  for (std::size_t side = 0; side < 4; ++side) {
+    const std::size_t c = side / 2;
+    const double still = c == 0 ? (side == 0 ? 7 : -3) : (side == 2 ? 7 : 1);
+    const auto pulled = [&](const Point& at, double load) {
+      Point u{0, 0};
+      u[c] = 0.1 * load * (at[c] - still);
+      return u;
+    };
+    Measured measured = measure({1}, pulled, {-3, 1}, {7, 7}, 9);
+    measured.channels = {"ux", "uy"};
+    Plate setup;
+    setup.boundary = boundaries[side];
+    const auto test = make(setup, measured);
+    ASSERT_EQ(names_of(*test)[1], "grip_tilt");
+    const std::size_t n = measured.step.size();
+    std::vector<double> u(2 * n);
+    const auto model = make_model("neo_hooke");
+    const std::vector<double> p{100}, flaws{0, tilt, degrees, 0, 0, 0, 0};
+    ASSERT_TRUE(test->predict({*model, p, flaws}, {u, {}, {}, {}}).ok());
+    const std::size_t end = side % 2 == 0 ? 0 : 8, step = c == 0 ? 1 : 9, first = c == 0 ? 9 * end : end;
+    const double L = u[c * n + first + 4 * step];
+    EXPECT_EQ(L > 0, side % 2 == 1);
+    EXPECT_NEAR(u[c * n + first + 8 * step], L * (1 + tilt), 1e-9) << side;
+    EXPECT_NEAR(u[(1 - c) * n + first + 4 * step], L * std::tan(degrees * std::numbers::pi / 180), 1e-9) << side;
+  }
+}
+
+/// Nominal stress of a sheet of neo-Hookean rubber, mu = 100 kPa, whose width is held.
+double held_stress(double stretch) { return 100 * (stretch - std::pow(stretch, -3)); }
+
+// Pulled along an axis with the width held, a sheet that is uneven along that axis bears h P(λ) = N everywhere: what is
+// thicker is stretched less.
+TEST(FlawedSheet, WhatIsThickerStretchesLess) {
+  for (const std::size_t c : {0, 1})
+    for (const double turn : {0.0, 180.0})
+      for (const bool step : {false, true}) {
+        const double direction = turn - (c == 1 ? 90 : 0), sign = (turn == 0) == (c == 0) ? 1 : -1;
+        const Point from{-3, 1}, to{7, 7};
+        const double length = to[c] - from[c], width = to[1 - c] - from[1 - c];
+        const auto pulled = [&](const Point& at, double load) {
+          Point u{0, 0};
+          u[c] = 0.3 * load * (at[c] - from[c]);
+          return u;
+        };
+        Measured measured = measure({0.5, 1}, pulled, from, to);
+        measured.channels = {"ux", "uy", c == 0 ? "force_right" : "force_top"};
+        Plate setup;
+        setup.mesh = R"({"size": 1})";
+        setup.boundary = c == 0 ? R"({"left": {"x": "fixed"}, "right": {"x": "uniform"}, "bottom": {"y": "fixed"},
+                                      "top": {"y": "fixed"}})"
+                                : R"({"bottom": {"y": "fixed"}, "top": {"y": "uniform"}, "left": {"x": "fixed"},
+                                      "right": {"x": "fixed"}})";
+        const auto test = make(setup, measured);
+        ASSERT_EQ(names_of(*test).size(), 5u);
+        const std::size_t n = measured.step.size();
+        std::vector<double> u(3 * n);
+        const auto model = make_model("neo_hooke");
+        const std::vector<double> p{100},
+            flaws = step ? std::vector<double>{0, 0, 0, 0.3, direction} : std::vector<double>{0, 0.4, direction, 0, 0};
+        ASSERT_TRUE(test->predict({*model, p, flaws}, {u, {}, {}, {}}).ok());
+        const double N = u[3 * n - 1] / (2 * width);
+        ASSERT_GT(N, 20);
+        for (std::size_t k = 0; k < 12; ++k) {
+          const double xi = sign * ((static_cast<double>(k) + 0.5) / 12 - 0.5);
+          if (step && std::abs(xi) < 0.2) continue;  // elements across the border
+          const std::size_t at = 169 + (c == 0 ? 13 * k + 6 : 13 * 6 + k), next = at + (c == 0 ? 13 : 1);
+          const double stretch = 1 + (u[c * n + next] - u[c * n + at]) / (length / 12);
+          const double h = !step ? 1 + 0.4 * xi : xi > 0 ? 1.3 : 0.7;
+          EXPECT_NEAR(h * held_stress(stretch) / N, 1, 0.01) << c << ' ' << direction << ' ' << xi;
+        }
+      }
 }
 
 // The state of a sheet between sliding edges is homogeneous, however its thickness 1 + g ξ changes across the pull, and

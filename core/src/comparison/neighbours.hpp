@@ -23,15 +23,25 @@ struct Neighbours {
   double inflation = 1;    ///< V
   std::size_t points = 0;  ///< residuals
 
-  /// By chance in less than one of 100 000 fields.
-  [[nodiscard]] bool err_together() const { return points > 0 && nearest > 0.1 && nearest > 4.5 * deviation; }
+  /// By chance in less than one of 100 000 fields, and by so much that intervals change.
+  [[nodiscard]] bool err_together() const {
+    return points > 0 && nearest > 0.1 && nearest > 4.5 * deviation && inflation > 1.1;
+  }
 };
 
-/// Of the fitted rows of a test that are points of a field; `predictions` of all rows.
-Neighbours neighbours(const assembly::Assembly& assembly, const std::string& test,
-                      const std::vector<double>& predictions);
+/// A point of a field, and its residual in units of its noise.
+struct FieldPoint {
+  double x, y, e;
+};
+using FieldFrame = std::vector<FieldPoint>;  ///< of one step and channel
 
-/// A warning for each field of the run whose points err together.
+/// Of large fields every few points i are paired with all j, so that no more than 2e8 pairs are looked at.
+Neighbours neighbours(const std::vector<FieldFrame>& frames);
+
+/// What to say of points that err together. A noise that is not stated cannot be multiplied: the cure is another.
+execution::Warning neighbours_warning(const std::string& test, const Neighbours& found, bool noise_stated);
+
+/// A warning for each field of the run whose points err together, from its fitted rows; `predictions` of all rows.
 void warn_of_neighbours(const assembly::Assembly& assembly, const std::vector<double>& predictions,
                         const std::string& label, std::vector<execution::Warning>& warnings);
 

@@ -96,7 +96,9 @@ MechanismFactory oblique_pull() {
           .stage = Stage::test,
           .applies_to = fields,
           .parameters = {{"angle", "deg", 0, -20, 20, Scale::linear,
-                          "From the normal of the moved side to the way that it goes, towards y or x.", ""}},
+                          "From the normal of the moved side to the way that it goes; above 0 where its ux and uy have "
+                          "the same sign.",
+                          ""}},
           .null = 0,
           .side = Side::both,
           .plausible_min = -10,

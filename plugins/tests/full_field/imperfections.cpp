@@ -67,7 +67,9 @@ std::vector<FlawParameter> all_flaws() {
                                "How much farther the upper or right end of a uniform side has moved than its middle, "
                                "over how far it has moved.")},
       {Flaw::oblique_pull,
-       linear("oblique_pull", "deg", 20, "From the normal of a moved side, held along itself, to the way it goes.")},
+       linear("oblique_pull", "deg", 20,
+              "From the normal of a moved side, held along itself, to the way it goes; above 0 where its ux and uy "
+              "have the same sign.")},
       {Flaw::thickness_gradient, linear("thickness_gradient", "1", 1,
                                         "How much thicker the specimen is at one end than at the other, over its "
                                         "thickness in the middle.")},

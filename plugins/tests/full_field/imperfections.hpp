@@ -14,7 +14,7 @@ namespace tunica::field {
 enum class Flaw {
   clamp_slip,          ///< share of the way of the moved side by which the opposite clamp lets go
   grip_tilt,           ///< how much farther one end of a grip goes than its middle, over its way
-  oblique_pull,        ///< angle of the way of a grip to the normal of its side, deg
+  oblique_pull,        ///< angle of the way of a grip to the normal of its side, deg; above 0 where ux uy > 0
   thickness_gradient,  ///< g in h = 1 + g ξ
   thickness_gradient_direction,
   stiffer_half,  ///< c in h = 1 + c tanh(ξ/0.04)
