@@ -316,10 +316,9 @@ Status predict_elastic(const Tube& tube, const Rule* rule, const TestInput& inpu
   if (!derivatives || !status.ok()) return status;
 
   const bool in_layers = whole && parameters;
-  if (in_layers) {  // each layer, half as thick, needs fewer points than the whole
-    k -= 2;
-    sections.begin(layers, wall, all[k]);
-  }
+  // Each layer is half as thick as the whole. Its rule has as many points all the same: at the null of a mechanism the
+  // values do not show how steep its slope is.
+  if (in_layers) sections.begin(layers, wall, all[k]);
   const auto differentiated = [&] {
     status = differentiate(tube, wall, sector, solution, sections, input.model_parameters.size(), output.jacobian,
                            output.abscissa_derivative);
