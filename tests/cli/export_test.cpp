@@ -99,7 +99,7 @@ TEST_F(Export, TakesADensityWithItsUnit) {
 TEST_F(Export, RefusesAModelThatAMechanismChanges) {
   fit({{"type", "neo_hooke"}, {"mechanisms", {{{"type", "chain_extensibility"}}}}});
   EXPECT_THAT(refused({"out", "--to", "abaqus"}),
-              HasSubstr("the mechanism 'chain_extensibility' changes the model 'wall', and no card has it"));
+              HasSubstr("the mechanism 'chain_extensibility' changes the model 'neo_hooke', and no card has it"));
 }
 
 // Runs of different tests have objectives that cannot be compared, so that none of them is the best.

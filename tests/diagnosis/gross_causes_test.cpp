@@ -28,7 +28,12 @@ struct OffRows : MadeUpCauses {
     second.weights.assign(2, 1.0);
     second.data.noise = {{"y", {.absolute = 1}}, {"z", {.absolute = 3, .relative = 0.1}}};
     add({"m", at_rows(10, {{5, 1}})});
-    if (with_outliers) add({"outliers", at_rows(10, {{4, 1}})});
+    MadeUp outliers{"outliers", at_rows(10, {{4, 1}})};
+    outliers.declare = [](MechanismFactory& factory) {
+      factory.stage = Stage::data;
+      factory.options = {Option::text("rows", "", "")};
+    };
+    if (with_outliers) add(outliers);
     close();
   }
   [[nodiscard]] Claim claim_of(const std::vector<std::size_t>& directions) const {

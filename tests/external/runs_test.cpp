@@ -43,7 +43,7 @@ TEST(External, TheCardHasTheFittedCompressibility) {
   bench.experiment["models"]["gent"]["mechanisms"][0]["invariants"] = "full";
   const auto refused = bench.tunica({"simulate", "experiment.json", "-o", "other"});
   EXPECT_NE(refused.code, 0);
-  EXPECT_THAT(refused.err + refused.out, HasSubstr("the model has mechanisms, compressibility"));
+  EXPECT_THAT(refused.err + refused.out, HasSubstr("the mechanism 'compressibility' has full invariants"));
 }
 
 TEST(External, UpdatesSaveRunsAndDifferencesAgree) {

@@ -76,10 +76,11 @@ struct FoamEnergy {
 ///
 /// A = 0, B = 1: aligned, of Holzapfel, Gasser, Ogden (2000). A = κ, B = 1 − 3κ: scattered, of Gasser et al. (2006).
 struct FibreFamily {
-  double angle;         ///< of M from the axial towards the circumferential direction, degrees
-  double k1;            ///< kPa
-  double k2;            ///< how fast it stiffens; may be 0
-  double A = 0, B = 1;  ///< weights of I1 and of M·CM
+  double angle;  ///< of M from the axial towards the circumferential direction, degrees
+  double k1;     ///< kPa
+  double k2;     ///< how fast it stiffens; may be 0
+  double A = 0;  ///< weight of I1
+  double B = 1;  ///< weight of M·CM
 };
 
 /// μ/2 (I1 − 3) and families of fibres. A mirrored pair is two families, at ±angle.

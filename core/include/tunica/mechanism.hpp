@@ -102,7 +102,7 @@ struct MechanismFactory {
   struct Misrecorded {
     std::string tests;      ///< quoted: "'a' and 'b'"
     std::string direction;  ///< "axial " of a sheet whose directions err by themselves; "" otherwise
-    double amplitude;
+    double amplitude;       ///< in the unit of its parameter
   };
   /// Set where a calibration of the rig settles the matter: what an amplitude means, in words without a full stop.
   /// Diagnosis then also asks whether all tests were recorded so, as a question about the file.

@@ -84,6 +84,7 @@ Verdict card_has_the_energy_of_the_model(const Model& model, const CardFormula& 
     if (!model.describe().compressible) C /= std::cbrt(C.determinant());
     point.C = to_tensor(C);
     const Evaluated at = evaluate(model, point.C, point.p);
+    if (!at.finite()) continue;  // beyond a limit of extension, once the volume is kept
     const double rest = evaluate(model, {1, 1, 1, 0, 0, 0}, point.p).energy;
     const double expected =
         std::visit([&](const auto& energy) { return energy_of(energy, State(C)); }, card(options, point.p));
