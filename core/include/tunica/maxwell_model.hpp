@@ -24,8 +24,10 @@ class MaxwellModel {
 
   /// Places of g (relative stiffness) and τ (s) among the parameters of the whole model.
   struct Branch {
-    std::size_t g;    ///< place of the relative stiffness
-    std::size_t tau;  ///< place of the relaxation time
+    /// Place of the relative stiffness.
+    std::size_t g;
+    /// Place of the relaxation time, s.
+    std::size_t tau;
   };
   /// Adds its branches; false where something else remembers as well.
   virtual bool add_branches(std::vector<Branch>& found) const = 0;
