@@ -294,14 +294,12 @@ def a_studio_outlives_its_plugins():
     for how in ("segfaults", "exits_at_once"):
         folder, tunica = laboratory(f"studio_{how}", how, since=700)
         with Studio(tunica.words[0], folder, *tunica.words[1:]) as studio:
-            def simulated(value):
-                return studio.post("/api/simulate", {"file": "experiment.json", "run": "bad/lm", "values": [value]})
-            status, before = simulated(12)
-            expect(status == 200, f"{how}: {before}")
-            status, said = simulated(800)
+            question = {"file": "experiment.json", "run": "bad/lm"}
+            before = studio.simulate(**question, values=[12])
+            status, said = studio.post("/api/simulate", {**question, "values": [800]})
             expect(status == 500 and "plugin 'hostile 1.0.0'" in str(said), f"{how}: {status} {said}")
-            status, after = simulated(12)
-            expect(status == 200 and after["channels"] == before["channels"], f"{how}: {status} {after}")
+            after = studio.simulate(**question, values=[12])
+            expect(after["channels"] == before["channels"], f"{how}: {after}")
         expect(studio.process.returncode == 0, f"{how}: the studio ends with {studio.process.returncode}")
 
 
