@@ -94,11 +94,8 @@ Material material_of(const plugins::Catalogue& catalogue, const Ingredient& mode
           fmt::format("the mechanism '{}' changes the model '{}', and no card has it{}; take it out, or take a model "
                       "that contains it. A template may write the parameters by name instead of a card",
                       mechanism.id, model.type, mechanism.card_volume ? " beside another one" : ""));
-  }
-  if (!mechanisms.empty()) {
-    const MechanismFactory& mechanism = catalogue.mechanisms().find(mechanisms[0].type)->second.factory;
-    const std::size_t own = mechanism.parameters_with(mechanisms[0].options).size();
-    material.volume = mechanism.card_volume(mechanisms[0].options, values.last(own));
+    const std::size_t own = mechanism.parameters_with(mechanisms[k].options).size();
+    material.volume = mechanism.card_volume(mechanisms[k].options, values.last(own));
     values = values.first(values.size() - own);
   }
   material.energy = formula(model.options, values);
