@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "assembly/parameter_id.hpp"
 #include "diagnosis/file/changes.hpp"
 #include "diagnosis/file/correction.hpp"
+#include "diagnosis/hypotheses/extension.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -44,11 +44,6 @@ void number_names(const Record& record, std::vector<Addition>& additions) {
       ++number;
     } while (std::any_of(tests.begin(), tests.end(), taken));
   }
-}
-
-/// Under which the tests of an addition share a parameter of it.
-std::string share_of(const Addition& addition, const Parameter& parameter) {
-  return addition.name() + "_" + parameter.name;
 }
 
 /// The addition as an entry of "mechanisms".
@@ -129,17 +124,6 @@ void add_calibrations(const Record& record, const std::vector<std::string>& test
     if (fit_for.size() > 1) add_in(fit_for, true);
     if (of_the_rig) continue;
     for (const std::string& test : fit_for) add_in({test}, fit_for.size() == 1 && tests.size() == 1);
-  }
-}
-
-void share_over_tests(experiment::Experiment& experiment, const std::vector<Addition>& additions,
-                      const plugins::Catalogue& catalogue) {
-  for (const Addition& addition : additions) {
-    if (addition.place.tests.size() < 2) continue;
-    for (const Parameter& parameter : catalogue.mechanisms().find(addition.id)->second.factory.parameters)
-      for (const std::string& test : addition.place.tests)
-        assembly::setting_at(experiment, assembly::of_test(test, addition.name(), parameter.name)).share =
-            share_of(addition, parameter);
   }
 }
 

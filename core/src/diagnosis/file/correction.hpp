@@ -55,10 +55,6 @@ void add_clocks(const Inquiry& inquiry, const Record& record, const experiment::
 void add_calibrations(const Record& record, const std::vector<std::string>& tests, const plugins::Catalogue& catalogue,
                       Corrections& all);
 
-/// One amplitude in all tests of an addition, as it was fitted: they share their parameters.
-void share_over_tests(experiment::Experiment& experiment, const std::vector<Addition>& additions,
-                      const plugins::Catalogue& catalogue);
-
 /// What is so, of fitted amplitudes.
 std::string calibration_words(const Correction& correction, const std::vector<Amplitude>& amplitudes,
                               const plugins::Catalogue& catalogue);

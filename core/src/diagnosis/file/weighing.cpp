@@ -93,9 +93,7 @@ std::shared_ptr<const experiment::Experiment> mended(const Inquiry& inquiry, con
                                                      const experiment::RunEntry& run, const Correction& correction) {
   if (!correction.additions.empty()) {
     const Extension extension(record.experiment(), run, correction.additions, inquiry.catalogue);
-    experiment::Experiment experiment = extension.experiment();
-    share_over_tests(experiment, extension.additions(), inquiry.catalogue);
-    return std::make_shared<const experiment::Experiment>(std::move(experiment));
+    return std::make_shared<const experiment::Experiment>(with_shares(extension, inquiry.catalogue));
   }
   Record read = record;
   if (!correction.apply(read)) return nullptr;

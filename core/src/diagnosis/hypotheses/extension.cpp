@@ -156,4 +156,20 @@ std::vector<Variable> Extension::variables(bool with_nuisance) const {
   return all;
 }
 
+std::string share_of(const Addition& addition, const Parameter& parameter) {
+  return addition.name() + "_" + parameter.name;
+}
+
+experiment::Experiment with_shares(const Extension& extension, const plugins::Catalogue& catalogue) {
+  experiment::Experiment experiment = extension.experiment();
+  for (const Addition& addition : extension.additions()) {
+    if (addition.place.tests.size() < 2) continue;
+    for (const Parameter& parameter : catalogue.mechanisms().at(addition.id).factory.parameters)
+      for (const std::string& test : addition.place.tests)
+        setting_at(experiment, assembly::of_test(test, addition.name(), parameter.name)).share =
+            share_of(addition, parameter);
+  }
+  return experiment;
+}
+
 }  // namespace tunica::diagnosis

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "assembly/assembly.hpp"
@@ -45,5 +46,11 @@ class Extension {
   std::vector<std::size_t> base_;
   std::vector<Part> parts_;
 };
+
+/// Name of the share under which the tests of an addition have one parameter.
+std::string share_of(const Addition& addition, const Parameter& parameter);
+
+/// The experiment of an extension in which tests with one amplitude share their parameters, as they were fitted.
+experiment::Experiment with_shares(const Extension& extension, const plugins::Catalogue& catalogue);
 
 }  // namespace tunica::diagnosis

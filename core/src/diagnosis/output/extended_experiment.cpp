@@ -50,15 +50,7 @@ void add_gross_rows(Experiment& experiment, const std::vector<Cause>& rows, cons
 std::string extended_experiment(const Diagnosis& d, const plugins::Catalogue& catalogue) {
   if (!d.explanation.claim.best) return {};
   const Refit& best = *d.explanation.claim.best;
-  Experiment experiment = best.extension->experiment();
-  // One amplitude in several tests: they share a parameter.
-  for (const Addition& addition : best.additions) {
-    if (addition.place.tests.size() < 2) continue;
-    for (const Parameter& parameter : catalogue.mechanisms().at(addition.id).factory.parameters)
-      for (const std::string& test : addition.place.tests)
-        setting_at(experiment, assembly::of_test(test, addition.name(), parameter.name)).share =
-            addition.name() + "_" + parameter.name;
-  }
+  Experiment experiment = with_shares(*best.extension, catalogue);
   for (const Addition& addition : best.additions) count_rows_as_the_file(experiment, addition);
   add_gross_rows(experiment, d.explanation.left_out, catalogue);
   return experiment::write_input(
