@@ -253,6 +253,7 @@ def mistake_taken_back(page, folder):
     page.go("causes", "mistaken.json")
     page.click("Diagnose")
     page.see("are first Piola–Kirchhoff stresses, not Cauchy ones, this fits")
+    assert page.browser.run("return document.querySelector('.verdict').innerText") == "Does the file say what is so?"
     page.picture("mistake", 1240)
     page.click("Take it so, and fit")
     page.see("What came out")

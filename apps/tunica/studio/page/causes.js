@@ -3,9 +3,9 @@
 import { bars } from "./bars.js";
 import { add, attempt, check, el, panel, put, shell } from "./dom.js";
 import { newest, reportLink, sheetLink, watchJob } from "./jobs.js";
-import { asksFile, mistakesOf } from "./readings.js";
+import { asksFile, headingOf, mistakesOf } from "./readings.js";
 import { ask, project, result } from "./server.js";
-import { missed, number, percent, plain, quoted, unit, verdicts } from "./words.js";
+import { capitalised, missed, number, percent, plain, quoted, unit } from "./words.js";
 
 const groups = { material: 2, rig: 3, file: 4 };
 
@@ -40,7 +40,7 @@ function accept(folder, entry, place) {
 async function found(folder, entry, name) {
   const { diagnosis, warnings } = await result(folder), place = el("div");
   const likely = diagnosis.causes ?? [], mistakes = await mistakesOf(name, diagnosis), first = asksFile(diagnosis);
-  add(place, el("p", { class: "verdict" }, verdicts[diagnosis.verdict] ?? diagnosis.verdict), [...(diagnosis.reasons ?? []), ...(diagnosis.explanations ?? [])].map((words) => el("p", {}, words)),
+  add(place, el("p", { class: "verdict" }, headingOf(diagnosis)), [...(diagnosis.reasons ?? []), ...(diagnosis.explanations ?? [])].map((words) => el("p", {}, capitalised(words))),
     first ? mistakes : "", budgetOf(diagnosis.budget, diagnosis.base?.model ?? "the model"),
     diagnosis.admissibility?.where ? el("div", { class: "box bad" }, el("strong", {}, "Stability is lost: "), diagnosis.admissibility.where, diagnosis.admissibility.remedy ? `; ${plain(diagnosis.admissibility.remedy)} restores it` : "") : "",
     likely.length ? [el("h3", {}, "Causes"), el("ul", { class: "plain" }, likely.map(causeLine))] : "",

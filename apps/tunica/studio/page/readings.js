@@ -6,7 +6,7 @@ import { patched } from "./edits.js";
 import { newest, watchJob } from "./jobs.js";
 import { picture } from "./measures.js";
 import { ask, project, result, save } from "./server.js";
-import { number, quoted } from "./words.js";
+import { number, plain, quoted, verdicts } from "./words.js";
 
 /** The measure that a mend writes, for its picture. */
 const measureOf = (one) => one.changes?.find((change) => change.path.endsWith("/stress_measure"))?.value;
@@ -14,6 +14,10 @@ const measureOf = (one) => one.changes?.find((change) => change.path.endsWith("/
 /** Whether the diagnosis asks for a mistake of the file before any cause: by its likelihood, or because it takes most of the misfit. */
 export const asksFile = ({ file, reason_codes = [] }) =>
   ["near", "ahead"].includes(file?.standing) || reason_codes.some((code) => code === "file_as_likely" || code === "file_suspected");
+
+/** What a page says first of a diagnosis. A tie with the file is a question, and no tie of causes. */
+export const headingOf = (diagnosis) =>
+  diagnosis.verdict === "indistinguishable" && asksFile(diagnosis) ? "Does the file say what is so?" : verdicts[diagnosis.verdict] ?? plain(diagnosis.verdict);
 
 /** How many times better a diagnosis fits with a mistake mended. */
 export const gainOf = (diagnosis, one) => (diagnosis.base?.squares ?? 0) / one.squares;

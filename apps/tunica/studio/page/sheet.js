@@ -3,9 +3,9 @@
 import { budgetOf, causeLine } from "./causes.js";
 import { curvesOf } from "./curves.js";
 import { add, el, put, shell } from "./dom.js";
-import { asksFile, gaining, gainOf } from "./readings.js";
+import { asksFile, gaining, gainOf, headingOf } from "./readings.js";
 import { result } from "./server.js";
-import { missed, number, percent, plain, quoted, unit, verdicts } from "./words.js";
+import { capitalised, missed, number, percent, plain, quoted, unit } from "./words.js";
 
 const most = { curves: 6, parameters: 16, warnings: 4, causes: 4 };
 const head = (words) => el("thead", {}, el("tr", {}, words.map((text, k) => el("th", { scope: "col", class: k ? "n" : null }, text))));
@@ -39,7 +39,7 @@ async function ofRun(folder, document) {
 
 function ofDiagnosis({ diagnosis }) {
   const causes = diagnosis.causes ?? [], file = asksFile(diagnosis) ? gaining(diagnosis).slice(0, 3) : [];
-  return [el("p", { class: "verdict" }, verdicts[diagnosis.verdict] ?? plain(diagnosis.verdict)), (diagnosis.reasons ?? []).slice(0, 3).map((words) => el("p", {}, words)),
+  return [el("p", { class: "verdict" }, headingOf(diagnosis)), (diagnosis.reasons ?? []).slice(0, 3).map((words) => el("p", {}, capitalised(words))),
     budgetOf(diagnosis.budget, diagnosis.base?.model ?? "the model"),
     causes.length ? [el("h2", {}, "Causes"), el("ul", { class: "plain" }, causes.slice(0, most.causes).map(causeLine)), more(causes, most.causes, "causes")] : "",
     file.length ? [el("h2", {}, "What the file may say that is not so"), el("ul", {}, file.map((one) => el("li", {}, `${one.sentence}: fits ${number(gainOf(diagnosis, one), 2)} times better; write ${one.mend}`)))] : "",
