@@ -19,7 +19,7 @@ LINK = re.compile(r"\]\(([^)\s#]+)[^)]*\)")
 #: Where readers begin, in the order of the menu; all other pages are below "More".
 MENU = {
     "Start": ["README.md", "docs/getting-started.md", "docs/faq.md", "docs/glossary.md", "docs/capabilities.md"],
-    "Asking": ["docs/experiment-file.md", "docs/command-line.md", "docs/python.md", "docs/rig-layouts.md", "docs/full-field.md"],
+    "Asking": ["docs/experiment-file.md", "docs/experiment-reference.md", "docs/command-line.md", "docs/python.md", "docs/rig-layouts.md", "docs/full-field.md"],
     "Models and solvers": ["docs/theory.md", "docs/composed.md", "docs/optimizers.md", "docs/solvers.md"],
     "Answers": ["docs/results.md", "docs/results-reference.md", "docs/diagnosis.md", "docs/discovery.md", "docs/export.md",
                 "docs/errors.md"],

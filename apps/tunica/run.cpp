@@ -204,7 +204,7 @@ int run(const GlobalOptions& global, const RunOptions& asked) {
   const Session session(global);
   auto experiment = session.read(options.file);
   check_names(options.overrides.profiles);
-  calibration::apply(options.overrides, experiment);
+  calibration::apply(options.overrides, session.catalogue(), experiment);
   auto how = options_of(global, options, session);
   std::optional<Stages> stages;
   how.concluding = [&](const std::string& what) {

@@ -11,9 +11,9 @@ TEST_F(Messages, NameTheNearestKeyOfAnUnknownOne) {
   EXPECT_EQ(refusal(R"("seed": 7)", R"("sead": 7)"),
             "experiment.json: unknown key 'sead' in the experiment file (/sead, line 3, column 38). Did you mean "
             "'seed'? Known: $schema, format, "
-            "name, seed, models, states, tests, objective, constraints, optimizers, stop, initial, paired_starts, "
-            "runs, on_failure, "
-            "fewer_simulations, keep_evaluations, analysis, diagnosis, discovery.");
+            "name, seed, models, states, tests, optimizers, objective, constraints, stop, initial, "
+            "fewer_simulations, paired_starts, runs, on_failure, "
+            "keep_evaluations, analysis, diagnosis, discovery.");
   expect_within(refusal(R"("rows": )", R"("row": )"),
                 "unknown key 'row' in the data of test 'circumferential_strip' (/tests/circumferential_strip/data/row, "
                 "line 22, column 9). Did you mean 'rows'?");

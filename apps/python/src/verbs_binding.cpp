@@ -55,7 +55,8 @@ py::dict run(const Loaded& loaded, const Folder& directory, bool resume, unsigne
   const OneAtATime alone;
   Told told(progress);
   experiment::Experiment experiment = loaded.experiment;
-  calibration::apply({seed, profiles, bootstrap, posterior, {}, paired_starts, discrepancy}, experiment);
+  calibration::apply({seed, profiles, bootstrap, posterior, {}, paired_starts, discrepancy}, *loaded.catalogue,
+                     experiment);
   calibration::Options options;
   if (directory) options.directory = *directory;
   options.resume = resume;

@@ -22,6 +22,6 @@ struct Overrides {
 };
 
 /// Changes the experiment, and the input.json that documents it.
-void apply(const Overrides& overrides, experiment::Experiment& experiment);
+void apply(const Overrides& overrides, const plugins::Catalogue& catalogue, experiment::Experiment& experiment);
 
 }  // namespace tunica::calibration

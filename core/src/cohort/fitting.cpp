@@ -140,7 +140,7 @@ Bound bind(const Specification& cohort, const Template& pattern, const Specimen&
   experiment.name = specimen.id;
   calibration::Overrides overrides;
   overrides.seed = derive_seed(cohort.seed, "specimen " + specimen.id);
-  calibration::apply(overrides, experiment);
+  calibration::apply(overrides, catalogue, experiment);
   const std::string all = fmt::format("{}\n{}\n{}\n", comparison::version(), *overrides.seed, text);
   std::string files;
   for (const experiment::TestEntry& test : experiment.tests)

@@ -28,13 +28,7 @@ std::vector<std::string> entry_names(const std::vector<Entry>& entries) {
   return names;
 }
 
-// reader_options.cpp
-/// The options of a plugin object stand as plain keys beside `reserved` ones; declared ones that are absent take their
-/// default. `owner` is "model 'gho'".
-Options read_options(const Node& entry, const std::vector<Option>& declared, std::vector<std::string> reserved,
-                     std::string_view owner);
-
-// reader_parameters.cpp
+// parameters.cpp, parameter_block.cpp
 /// One parameter in a share group, wherever in the file it stands.
 struct SharedParameter {
   std::string group, unit;  ///< unit "" = not known before the test is built
@@ -63,22 +57,26 @@ std::vector<data::Finding> bare_angles(const Node& entry, const std::vector<Opti
 std::vector<data::Finding> odd_sizes(const Node& entry, const TestEntry& test, const std::vector<Option>& options,
                                      std::string_view owner);
 
-// reader_models.cpp
+// model_block.cpp, mechanism_block.cpp
 ModelEntry read_model(const std::string& name, const Node& entry, const plugins::Catalogue& catalogue,
                       std::vector<SharedParameter>& shared);
-/// Test mechanisms; `test_type` decides which apply.
+std::vector<MechanismEntry> read_model_mechanisms(const Node& entry, const std::string& owner,
+                                                  const plugins::Catalogue& catalogue,
+                                                  std::vector<SharedParameter>& shared,
+                                                  std::vector<data::Finding>& findings);
+/// `test_type` decides which apply.
 std::vector<MechanismEntry> read_test_mechanisms(const Node& entry, const std::string& test_type,
-                                                 std::string_view owner, const plugins::Catalogue& catalogue,
+                                                 const std::string& owner, const plugins::Catalogue& catalogue,
                                                  std::vector<SharedParameter>& shared,
                                                  std::vector<data::Finding>& findings);
 
-// reader_states.cpp
+// state_block.cpp
 std::vector<StateEntry> read_states(const Node& node, const std::vector<ModelEntry>& models,
                                     const plugins::Catalogue& catalogue);
 /// That the names of states begin no other names, and that every state has a test.
 void check_states(const Node& node, const Experiment& experiment);
 
-// reader_tests.cpp
+// test_block.cpp
 /// What a test may name: models for its layers, and a state.
 struct NamedEntries {
   std::vector<std::string> models, states;
@@ -90,12 +88,12 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
                     const NamedEntries& named, const plugins::Catalogue& catalogue,
                     std::vector<SharedParameter>& shared);
 
-// reader_tables.cpp
+// tables.cpp
 /// The block "data" of a test, one table or several; relative names of files begin at `folder`.
 data::DataRequest read_data(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
                             const std::filesystem::path& folder);
 
-// reader_data.cpp
+// table_block.cpp
 /// A file of a series and its number, which is the first prescribed quantity that every row needs and nothing gives.
 using Numbered = std::pair<double, std::filesystem::path>;
 data::DataRequest read_table(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
@@ -103,46 +101,18 @@ data::DataRequest read_table(const Node& block, const std::vector<Observable>& o
 /// "0:240:6", "-50:".
 data::RowRange read_row_range(const Node& node);
 
-// reader_rig.cpp
-/// The keys of "data" for files as a testing machine writes them, and how to read them; after "columns".
-const std::vector<std::string>& rig_keys();
-void read_rig_keys(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
-                   data::DataRequest& data);
-/// A name, or the number of a column as data::column_position has it.
-std::string read_column_name(const Node& node);
-void read_where(const Node& node, data::DataRequest& data);
-
-// reader_optimizers.cpp
-/// `default_evaluations`: the limit where the block names none.
-Stop read_stop(const Node& node, std::uint64_t default_evaluations = Stop{}.max_evaluations);
+// optimizer_block.cpp
 std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Catalogue& catalogue);
 
-// reader_runs.cpp
-ObjectiveType read_objective(const Node& node);
+// constraint_block.cpp
 std::vector<ConstraintEntry> read_constraints(const Node& node);
-void read_on_failure(const Node& node, Experiment& experiment);
-KeptEvaluations read_kept_evaluations(const Node& node);
-/// What a run takes where it overrides nothing.
-struct RunDefaults {
-  std::vector<std::string> tests;
-  ObjectiveType objective = ObjectiveType::standardised_quadratic;
-  std::vector<ConstraintEntry> constraints;
-  Stop stop;
-  bool random_start = false;
-  FewerSimulations fewer_simulations;
-};
-FewerSimulations read_fewer_simulations(const Node& node);
-/// "given" or "random": true for random.
-bool read_initial(const Node& node);
-/// Tests that a run defines for itself are added to the experiment.
-void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Catalogue& catalogue,
-               std::vector<SharedParameter>& shared, Experiment& experiment);
-/// "analysis": profiles, bootstrap, optimizer; needs the optimizers.
-void read_analysis(const Node& node, Experiment& experiment);
-DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue);
-DiscoveryEntry read_discovery(const Node& node, const Experiment& experiment);
 
-// writer.cpp
+// run_block.cpp
+/// `defaults`: what a run has that does not state it. Tests that a run defines for itself are added to the experiment.
+void read_runs(const Node& node, const RunEntry& defaults, const plugins::Catalogue& catalogue,
+               std::vector<SharedParameter>& shared, Experiment& experiment);
+
+// experiment_file.cpp
 /// input.json: the experiment with every default filled in, numbers in base units, file names absolute.
 std::string write_input(const Experiment& experiment, const plugins::Catalogue& catalogue);
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/enum_names.hpp"
+#include "experiment/limits.hpp"
 
 namespace tunica::experiment {
 
@@ -34,6 +35,38 @@ Json reference(std::string_view name, std::string_view description) {
 
 Json quantity_schema(std::string_view description) {
   return {{"description", description}, {"type", {"number", "string"}}, {"pattern", "^ *[+-]?[0-9.]"}};
+}
+
+Json text_schema(std::string_view description) { return {{"description", description}, {"type", "string"}}; }
+
+Json flag_schema(std::string_view description) { return {{"description", description}, {"type", "boolean"}}; }
+
+Json choice_schema(std::string_view description, const std::vector<std::string>& names) {
+  return {{"description", description}, {"enum", names}};
+}
+
+Json count_schema(std::string_view description, std::uint64_t at_least, std::optional<std::uint64_t> at_most) {
+  Json schema = {{"description", description}, {"type", "integer"}, {"minimum", at_least}};
+  if (at_most) schema["maximum"] = *at_most;
+  return schema;
+}
+
+Json number_schema(std::string_view description, double least, double most) {
+  return {{"description", description}, {"type", "number"}, {"minimum", least}, {"maximum", most}};
+}
+
+Json list_schema(std::string_view description, Json items) {
+  return {{"description", description}, {"type", "array"}, {"items", std::move(items)}, {"maxItems", limits::entries}};
+}
+
+Json named_entries_schema(std::string_view description, Json entry) {
+  Json schema = {{"description", description},
+                 {"type", "object"},
+                 {"minProperties", 1},
+                 {"maxProperties", limits::entries},
+                 {"additionalProperties", std::move(entry)}};
+  schema["propertyNames"]["pattern"] = name_pattern;
+  return schema;
 }
 
 Json option_schema(const Option& option) {
@@ -96,6 +129,10 @@ Json by_type(std::string_view prefix, const std::vector<std::string>& types, std
   }
   if (!types.empty()) schema["allOf"] = std::move(cases);
   return schema;
+}
+
+std::string described(const std::string& doc, const std::string& reference, const std::string& plugin) {
+  return fmt::format("{}{}{} (plugin {})", doc, reference.empty() ? "" : " – ", reference, plugin);
 }
 
 }  // namespace tunica::experiment

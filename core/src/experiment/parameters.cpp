@@ -12,49 +12,6 @@
 namespace tunica::experiment {
 namespace {
 
-const std::vector<std::string> keys_of_parameter = {"min", "max", "initial", "fixed", "scale", "share", "prior"};
-
-}  // namespace
-
-ParameterSetting read_setting(const Node& node, const std::string& name, std::string_view unit) {
-  const std::string what = fmt::format("parameter '{}'", name);
-  node.allow_only(keys_of_parameter, what);
-  ParameterSetting setting;
-  setting.pointer = node.pointer();
-  const auto value = [&](const std::string& key) -> std::optional<double> {
-    if (const auto child = node.find(key)) return child->quantity(unit, fmt::format("'{}' of {}", key, what));
-    return std::nullopt;
-  };
-  setting.min = value("min");
-  setting.max = value("max");
-  setting.initial = value("initial");
-  setting.fixed = value("fixed");
-  if (const auto scale = node.find("scale"))
-    setting.scale = *text::value_of(scale_names, scale->one_of(names_in(scale_names), "scale"));
-  if (const auto share = node.find("share")) {
-    setting.share = share->text("the name of a share group");
-    share->check_name(*setting.share, "share group");
-  }
-  if (const auto prior = node.find("prior")) {
-    prior->allow_only({"mean", "sd"}, fmt::format("the prior of {}", what));
-    setting.prior = Prior{prior->require("mean", "the prior of " + what).quantity(unit, "the prior mean"),
-                          prior->require("sd", "the prior of " + what).quantity(unit, "the prior standard deviation")};
-    if (!(setting.prior->sd > 0))
-      prior->child_or_self("sd").fail(fmt::format("the prior standard deviation of {} is {}", what, setting.prior->sd),
-                                      "It must be greater than zero; to hold a parameter, use \"fixed\".");
-  }
-  if (setting.fixed && node.size() > 1) {
-    std::string others;
-    for (const auto& [key, child] : node.members("an object"))
-      if (key != "fixed") others += (others.empty() ? "'" : ", '") + key + "'";
-    node.fail(fmt::format("{} is fixed but has {} as well", what, others),
-              "A fixed parameter is held at its value, so the other keys mean nothing: remove them, or \"fixed\".");
-  }
-  return setting;
-}
-
-namespace {
-
 std::string quantity(double value, std::string_view unit) {
   return unit.empty() || unit == "1" ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);
 }

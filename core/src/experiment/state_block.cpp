@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "experiment/reader.hpp"
+#include "experiment/blocks.hpp"
+#include "experiment/limits.hpp"
 #include "experiment/suggest.hpp"
 #include "plugins/guarded.hpp"
 
@@ -30,28 +31,50 @@ std::vector<Parameter> parameters_of(const std::vector<ModelEntry>& models, cons
   return all;
 }
 
-StateEntry read_state(const std::string& name, const Node& entry, const std::vector<Parameter>& known) {
-  const std::string owner = fmt::format("state '{}'", name);
-  entry.expect_object("a state, {\"parameters\": {…}},");
-  entry.check_name(name, "state");
-  entry.allow_only({"parameters", "doc"}, owner);
-  StateEntry state{name, {}, {}};
-  if (const auto doc = entry.find("doc")) state.doc = doc->text("a sentence on the state");
-  const Node block = entry.require("parameters", owner);
-  for (const auto& [parameter, node] : block.members("an object with the parameters that differ")) {
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&](const Parameter& p) { return p.name == parameter; });
-    if (found == known.end()) {
-      std::vector<std::string> names;
-      for (const Parameter& one : known) names.push_back(one.name);
-      node.fail(fmt::format("unknown parameter '{}' of {}", excerpt(parameter), owner), suggestion(parameter, names));
+Key<StateEntry> differing_key(const std::string& owner, const std::vector<Parameter>& known) {
+  const auto schema = [] {
+    Json differing = {{"description",
+                       "Parameters that have a value of their own in this state, named as in results; what is silent "
+                       "is as in the model."},
+                      {"type", "object"},
+                      {"minProperties", 1},
+                      {"maxProperties", limits::entries}};
+    differing["additionalProperties"] = reference("parameter");
+    return differing;
+  };
+  const auto read = [=, &known](const Node& block, StateEntry& state) {
+    for (const auto& [parameter, node] : block.members("an object with the parameters that differ")) {
+      const auto found = std::find_if(known.begin(), known.end(),
+                                      [&, &name = parameter](const Parameter& p) { return p.name == name; });
+      if (found == known.end()) {
+        std::vector<std::string> names;
+        for (const Parameter& one : known) names.push_back(one.name);
+        node.fail(fmt::format("unknown parameter '{}' of {}", excerpt(parameter), owner), suggestion(parameter, names));
+      }
+      node.expect_object("what the parameter is in this state, {} or {\"min\": …, \"max\": …},");
+      state.differs.emplace(parameter, read_setting(node, parameter, found->unit));
     }
-    node.expect_object("what the parameter is in this state, {} or {\"min\": …, \"max\": …},");
-    state.differs.emplace(parameter, read_setting(node, parameter, found->unit));
-  }
-  if (state.differs.empty())
-    block.fail(fmt::format("{} differs in no parameter", owner),
-               "Name those that differ, for example \"mu\": {}, or take the state out.");
+    if (state.differs.empty())
+      block.fail(fmt::format("{} differs in no parameter", owner),
+                 "Name those that differ, for example \"mu\": {}, or take the state out.");
+  };
+  return required<StateEntry>(
+      {"parameters", schema, read, [](const StateEntry& state) { return write_parameters(state.differs); }});
+}
+
+Block<StateEntry> state_block(const std::string& owner, const std::vector<Parameter>& known) {
+  return Block<StateEntry>(
+             owner, "What differs in this state.",
+             {silent_at(text_key("doc", "What was done to the specimen.", &StateEntry::doc, "a sentence on the state"),
+                        ""),
+              differing_key(owner, known)})
+      .expecting("a state, {\"parameters\": {…}},");
+}
+
+StateEntry read_state(const std::string& name, const Node& entry, const std::vector<Parameter>& known) {
+  entry.check_name(name, "state");
+  StateEntry state{name, {}, {}};
+  state_block(fmt::format("state '{}'", name), known).read(entry, state);
   return state;
 }
 
@@ -83,6 +106,13 @@ void check_states(const Node& node, const Experiment& experiment) {
       entry.fail(fmt::format("no test is in the state '{}'", name),
                  fmt::format("Write \"state\": \"{}\" in the tests that are, or take the state out.", name));
   }
+}
+
+Json write_state(const StateEntry& entry) { return state_block("", {}).write(entry); }
+
+Json states_schema() {
+  return named_entries_schema("States of the specimen, by name: tone, calcium, temperature, treatment.",
+                              state_block("", {}).schema());
 }
 
 }  // namespace tunica::experiment

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "data/quantities.hpp"
-#include "experiment/reader.hpp"
+#include "experiment/blocks.hpp"
 #include "experiment/suggest.hpp"
 
 namespace tunica::experiment {
@@ -106,6 +106,27 @@ data::DataRequest read_data(const Node& block, const std::vector<Observable>& ob
                             const std::filesystem::path& folder) {
   const bool several = block.is_array() || (block.is_object() && block.find("numbered_files"));
   return several ? read_tables(block, observables, owner, folder) : read_table(block, observables, owner, folder, {});
+}
+
+/// Several tables as they were read, with what was since taken out of the whole or changed in it.
+Json write_data(const data::DataRequest& data, const std::vector<Observable>& observables) {
+  if (data.tables.empty()) return write_table(data, observables);
+  Json list = Json::array();
+  const auto gives = [&](const auto& columns, const std::string& observable) {
+    return std::ranges::any_of(columns, [&](const auto& column) {
+      return data::quantity_named(column.first, observables)->observable->name == observable;
+    });
+  };
+  for (data::DataRequest table : data.tables) {
+    std::erase_if(table.columns, [&](const auto& column) {
+      return !gives(data.columns, data::quantity_named(column.first, observables)->observable->name);
+    });
+    table.noise.clear();
+    for (const auto& [name, noise] : data.noise)
+      if (gives(table.columns, name)) table.noise.emplace_back(name, noise);
+    list.push_back(write_table(table, observables));
+  }
+  return list;
 }
 
 }  // namespace tunica::experiment

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "experiment/reader.hpp"
+#include "experiment/blocks.hpp"
 
 namespace tunica::experiment {
 namespace {
@@ -16,6 +16,8 @@ void check_range(const Node& node, const Option& option, double value) {
     node.fail(fmt::format("the option '{}' is {}, more than its largest value {}", option.name, value, *option.max),
               fmt::format("Give at most that. {}", option.doc));
 }
+
+}  // namespace
 
 Option::Value read_option(const Node& node, const Option& option) {
   const std::string what = fmt::format("the option '{}'", option.name);
@@ -44,19 +46,17 @@ Option::Value read_option(const Node& node, const Option& option) {
   return node.dumped();
 }
 
-}  // namespace
+Json write_option(const Option& option, const Options& options) {
+  const Option::Value& value = options.values().find(option.name)->second;
+  if (option.kind == Option::Kind::json) return Json::parse(std::get<std::string>(value));
+  return std::visit([](const auto& one) { return Json(one); }, value);
+}
 
-Options read_options(const Node& entry, const std::vector<Option>& declared, std::vector<std::string> reserved,
-                     std::string_view owner) {
-  for (const Option& option : declared) reserved.push_back(option.name);
-  entry.allow_only(reserved, owner);
+Options default_options(const Node& entry, const std::vector<Option>& declared, std::string_view owner) {
   Options options;
   for (const Option& option : declared) {
-    if (const auto node = entry.find(option.name))
-      options.set(option.name, read_option(*node, option));
-    else if (option.fallback)
-      options.set(option.name, *option.fallback);
-    else
+    if (option.fallback) options.set(option.name, *option.fallback);
+    if (!option.fallback && !entry.find(option.name))
       entry.fail(fmt::format("the option '{}' is missing in {}", option.name, owner),
                  fmt::format("Add it. {}", option.doc));
   }
