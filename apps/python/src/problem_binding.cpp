@@ -9,6 +9,7 @@
 #include "execution/plan.hpp"
 #include "library.hpp"
 #include "module.hpp"
+#include "serving/um_bridge.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::python {
@@ -154,6 +155,14 @@ py::list blocks_of_problem(const RunProblem& problem) {
   return all;
 }
 
+/// The status of HTTP and the document that UM-Bridge answers with.
+std::pair<int, std::string> answer_of_problem(const RunProblem& problem, const std::string& path,
+                                              const std::string& body) {
+  const py::gil_scoped_release free;
+  serving::Answer answer = serving::answer(serving::ServedRun(problem.assembly()), path, body);
+  return {answer.status, std::move(answer.body)};
+}
+
 }  // namespace
 
 void add_problem(py::module_& module) {
@@ -166,6 +175,7 @@ void add_problem(py::module_& module) {
       .def_property_readonly("channels", &channels_of_problem)
       .def_property_readonly("blocks", &blocks_of_problem)
       .def_property_readonly("exact", [](const RunProblem& self) { return self.layout().jacobian_is_exact; })
+      .def("answer", &answer_of_problem)
       .def("evaluate", &evaluate_problem)
       .def("predict", &predict_problem)
       .def("constraints", &constraints_of)

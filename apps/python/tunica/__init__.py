@@ -26,12 +26,13 @@ from .results import Check, Diagnosis, Discovery, Estimate, Result, Run, Simulat
 from .rigs import Imported, import_rig
 from .rows import Rows, test
 from .searches import Search, optimizer
+from .serving import Server, serve
 from .studies import cohort, export, report, stability
 from .table import Table
 from .verbs import check, diagnose, discover, run, simulate
 
 __all__ = ["Check", "Cohort", "Diagnosis", "Discovery", "Energy", "Estimate", "Evaluation", "EvaluationError", "Experiment", "Imported",
            "InputError", "Interrupted", "Material", "Observable", "Parameter", "PluginFailure", "Problem", "Result", "Rows", "Run",
-           "Search", "Simulation", "StopSearch", "Strain", "Studio", "Table", "TunicaError", "WriteFailure", "check", "cohort",
+           "Search", "Server", "Simulation", "StopSearch", "Strain", "Studio", "Table", "TunicaError", "WriteFailure", "check", "cohort",
            "describe", "diagnose", "discover", "export", "forget", "import_rig", "mechanism", "model", "names", "open",
-           "optimizer", "read", "report", "run", "schema", "simulate", "stability", "studio", "test", "use_plugins", "__version__"]
+           "optimizer", "read", "report", "run", "schema", "serve", "simulate", "stability", "studio", "test", "use_plugins", "__version__"]
