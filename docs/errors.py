@@ -21,7 +21,7 @@ ROOT = HERE.parent
 SUBJECTS = [
     ("Python", "Raised as `tunica.InputError`, beside the messages of the command line.", ["apps/python/"]),
     ("Command line", "What stands behind `tunica`, and where results go.",
-     ["apps/", "core/src/cluster/", "core/src/exporting/", "core/src/importing/", "core/src/comparison/snapshots", "core/src/comparison/simulation",
+     ["apps/", "core/src/cluster/", "core/src/exporting/", "core/src/importing/", "core/src/imports/", "core/src/comparison/snapshots", "core/src/comparison/simulation",
       "core/src/comparison/parameter_file", "core/src/comparison/certify"]),
     ("JSON", "The experiment file as text. Each message names file, line and column.",
      ["core/src/experiment/json_document"]),

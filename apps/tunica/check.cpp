@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -11,12 +9,13 @@
 #include <unistd.h>
 
 #include "answer.hpp"
+#include "calibration/examination_json.hpp"
 #include "data/loading_path.hpp"
 #include "data/nearest.hpp"
 #include "data/signal.hpp"
-#include "describe.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
+#include "plugins/description.hpp"
 #include "report/data_page.hpp"
 #include "text/aside.hpp"
 #include "text/lists.hpp"
@@ -233,7 +232,7 @@ int check(const GlobalOptions& global, const std::string& file, bool as_json, co
       calibration::examine(experiment, session.catalogue(), run_external,
                            [](const std::string& words) { text::aside("{}\n", text::hanging("", words)); });
   if (as_json)
-    print_json(check_json(checked));
+    print_json(calibration::examination_json(checked));
   else
     print(checked, file);
   return checked.good() ? done : not_converged;

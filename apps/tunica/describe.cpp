@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "describe.hpp"
-
 #include <cmath>
 #include <memory>
 #include <string>
@@ -12,6 +10,7 @@
 #include "answer.hpp"
 #include "data/nearest.hpp"
 #include "exit_codes.hpp"
+#include "plugins/description.hpp"
 #include "plugins/guarded.hpp"
 #include "text/wrapping.hpp"
 #include "tunica/error.hpp"
@@ -93,7 +92,7 @@ void print_head(const std::string& kind, const std::string& name, const std::str
 void print(const plugins::Catalogue::Entry<ModelFactory>& entry) {
   const auto& factory = entry.factory;
   print_head("model", factory.type, factory.doc, factory.reference, entry.plugin);
-  const auto model = plugins::create(entry, any_options(factory.options));
+  const auto model = plugins::create(entry, plugins::any_options(factory.options));
   const auto& description = model->describe();
   if (!description.formula.empty()) answer("\n{}\n", hanging("energy: ", description.formula));
   print_parameters(description.parameters);
@@ -116,7 +115,7 @@ void print(const plugins::Catalogue::Entry<TestFactory>& entry) {
     answer("{}\n", hanging(fmt::format("  {:<18} {:<8} ", observable.name, observable.unit),
                            fmt::format("{}{}. {}", role, observable.required ? ", required" : "", observable.doc)));
   }
-  const auto own = parameters_of(entry);
+  const auto own = plugins::parameters_of(entry);
   print_parameters(own.parameters, own.nulls);
   print_options(factory.options, factory.layered);
 }
@@ -124,7 +123,7 @@ void print(const plugins::Catalogue::Entry<TestFactory>& entry) {
 void print(const plugins::Catalogue::Entry<OptimizerFactory>& entry) {
   const auto& factory = entry.factory;
   print_head("optimizer", factory.type, factory.doc, factory.reference, entry.plugin);
-  const auto optimizer = plugins::create(entry, any_options(factory.options));
+  const auto optimizer = plugins::create(entry, plugins::any_options(factory.options));
   const auto needs = plugins::needs(entry.plugin, *optimizer);
   std::vector<std::string> words;
   if (needs.residuals) words.push_back("sees residuals");
@@ -163,7 +162,7 @@ bool describe_if_there(const Shelf& shelf, const char* kind, const std::string& 
   const auto found = shelf.find(name);
   if (found == shelf.end()) return false;
   if (document)
-    (*document)[kind] = description_json(found->second);
+    (*document)[kind] = plugins::description_json(found->second);
   else
     print(found->second);
   return true;

@@ -14,12 +14,12 @@
 
 #include "answer.hpp"
 #include "batch.hpp"
+#include "budget/diagnosed.hpp"
 #include "budget/output/outputs.hpp"
 #include "calibration/examination.hpp"
 #include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "diagnosis/output/outputs.hpp"
-#include "diagnosis_folder.hpp"
 #include "discovery/output/outputs.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
@@ -95,12 +95,12 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   if (!was_there) made.push_back(directory.path());
   if (requested.empty() && !results_were_there) made.push_back(directory.path().parent_path());
   supervised::unfinished(made, directory.path());
-  DiagnosisAndSearch found;
+  budget::DiagnosisAndSearch found;
   try {
     UnfinishedResults folder(made, interruption_message());
     Stages stages(global.quiet);
-    found = diagnosed(experiment, request, session.catalogue(), !options.no_discovery,
-                      [&stages](const std::string& what, double share) { stages.tell(what, share); });
+    found = budget::diagnosed(experiment, request, session.catalogue(), !options.no_discovery,
+                              [&stages](const std::string& what, double share) { stages.tell(what, share); });
     folder.keep();
   } catch (const diagnosis::BaseFitFailure& problem) {
     say_error(fmt::format("{}. Run `{}`, which evaluates the initial point and shows what fails", problem.what(),
@@ -109,7 +109,7 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   }
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
   execution::NewResults results(directory);
-  write_diagnosis(directory.path(), found, experiment, session.catalogue());
+  budget::write_diagnosis(directory.path(), found, experiment, session.catalogue());
   results.complete();
   const std::vector<diagnosis::Warning> warnings = found.diagnosis.warnings();
   for (const diagnosis::Warning& warning : warnings) answer("{}\n", text::hanging("warning: ", warning.text));
@@ -137,10 +137,10 @@ int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) 
   return run_batch({options.file, options.directory, options.share, "diagnoses", global.quiet},
                    [&](const std::filesystem::path& of_case, const std::filesystem::path& results) {
                      const auto experiment = session.read(of_case / "experiment.json");
-                     const auto found = diagnosed(experiment, request_of(experiment, session, options),
-                                                  session.catalogue(), !options.no_discovery);
+                     const auto found = budget::diagnosed(experiment, request_of(experiment, session, options),
+                                                          session.catalogue(), !options.no_discovery);
                      execution::make_folder(results);
-                     write_diagnosis(results, found, experiment, session.catalogue());
+                     budget::write_diagnosis(results, found, experiment, session.catalogue());
                    });
 }
 

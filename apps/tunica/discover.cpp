@@ -16,12 +16,13 @@
 #include "answer.hpp"
 #include "batch.hpp"
 #include "calibration/examination.hpp"
+#include "cohort/discovery_folder.hpp"
 #include "cohort/discovery_study.hpp"
 #include "data/read_bytes.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
+#include "discovery/output/folder.hpp"
 #include "discovery/output/outputs.hpp"
-#include "discovery_folder.hpp"
-#include "discovery_request.hpp"
+#include "discovery/wishes.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
@@ -44,7 +45,7 @@ namespace {
 struct DiscoverOptions {
   std::string file, directory, share;
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
-  DiscoveryWishes wishes;
+  discovery::Wishes wishes;
   bool batch = false;
 };
 
@@ -100,7 +101,7 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
   }
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
   execution::NewResults results(output.directory);
-  const bool extended = write_discovery(output.directory.path(), found, experiment, session.catalogue());
+  const bool extended = discovery::write_discovery(output.directory.path(), found, experiment, session.catalogue());
   results.complete();
   tell(found.warnings);
   const auto page = report::write_report(output.directory.path());
@@ -143,7 +144,7 @@ int discover_cohort(const GlobalOptions& global, const DiscoverOptions& options)
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
   const std::filesystem::path& folder = output.directory.path();
   execution::NewResults results(output.directory);
-  write_cohort_discovery(folder, *study, specification, table, session.catalogue());
+  cohort::write_discovery(folder, *study, specification, table, session.catalogue());
   results.complete();
   tell(study->found.warnings);
   const auto page = report::write_report(folder);
@@ -162,7 +163,7 @@ int discover_batch(const GlobalOptions& global, const DiscoverOptions& options) 
                      const auto found =
                          budget::discover(experiment, request_of(experiment, options.wishes), session.catalogue());
                      execution::make_folder(results);
-                     write_discovery(results, found, experiment, session.catalogue());
+                     discovery::write_discovery(results, found, experiment, session.catalogue());
                    });
 }
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "answer.hpp"
-#include "card_name.hpp"
 #include "cards/card.hpp"
+#include "cards/card_name.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "exporting/fitted_material.hpp"
@@ -37,13 +37,14 @@ int export_card(const GlobalOptions& global, const ExportOptions& options) {
   for (const auto& [option, file] : {std::pair("-o", options.file), std::pair("--subroutine", options.subroutine)})
     if (!file.empty() && std::filesystem::exists(file))
       throw InputError(fmt::format("{} {}: is there already; name a new file", option, file));
-  const std::string card = cards::write_card(target, fitted.material,
-                                             {.name = options.name.empty() ? card_name(fitted.name) : options.name,
-                                              .units = units,
-                                              .bulk_ratio = options.bulk_ratio,
-                                              .density = density,
-                                              .subroutine = !options.subroutine.empty(),
-                                              .remarks = fitted.remarks});
+  const std::string card =
+      cards::write_card(target, fitted.material,
+                        {.name = options.name.empty() ? cards::card_name(fitted.name) : options.name,
+                         .units = units,
+                         .bulk_ratio = options.bulk_ratio,
+                         .density = density,
+                         .subroutine = !options.subroutine.empty(),
+                         .remarks = fitted.remarks});
   UnfinishedResults files({options.subroutine, options.file}, "interrupted; nothing is left behind\n");
   if (!options.subroutine.empty()) execution::write_atomically(options.subroutine, cards::uanisohyper_inv());
   if (options.file.empty()) {

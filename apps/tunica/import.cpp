@@ -12,7 +12,7 @@
 #include "answer.hpp"
 #include "data/units.hpp"
 #include "exit_codes.hpp"
-#include "imported.hpp"
+#include "imports/imported.hpp"
 #include "messages.hpp"
 #include "supervisor.hpp"
 #include "text/aside.hpp"
@@ -47,16 +47,16 @@ std::string ask_on_terminal(const Question& question) {
   }
 }
 
-int import(const GlobalOptions& global, const ImportRequest& request) {
+int import(const GlobalOptions& global, const imports::ImportRequest& request) {
   const Session session(global);
   const bool terminal = isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
   std::optional<UnfinishedResults> written;
-  const Imported imported =
-      import_files(request, session.catalogue(), terminal ? importing::Ask(ask_on_terminal) : importing::Ask(),
-                   [&](const std::vector<std::filesystem::path>& files) {
-                     supervised::unfinished(files);
-                     written.emplace(files, "interrupted; nothing is left behind\n");
-                   });
+  const imports::Imported imported =
+      imports::import_files(request, session.catalogue(), terminal ? importing::Ask(ask_on_terminal) : importing::Ask(),
+                            [&](const std::vector<std::filesystem::path>& files) {
+                              supervised::unfinished(files);
+                              written.emplace(files, "interrupted; nothing is left behind\n");
+                            });
   written->keep();
   supervised::unfinished({});
   for (const std::string& warning : imported.warnings) say_wrapped_warning(warning);
@@ -73,7 +73,7 @@ int import(const GlobalOptions& global, const ImportRequest& request) {
 }  // namespace
 
 void add_import(CLI::App& app, GlobalOptions& global, Action& action) {
-  auto options = std::make_shared<ImportRequest>();
+  auto options = std::make_shared<imports::ImportRequest>();
   Answers& answers = options->answers;
   auto* verb = app.add_subcommand("import", "Read files of a testing machine and write a first experiment from them");
   verb->add_option("file", options->files, "Data files as the machine wrote them; a test of each")

@@ -9,8 +9,8 @@
 
 #include "answer.hpp"
 #include "data/nearest.hpp"
-#include "describe.hpp"
 #include "exit_codes.hpp"
+#include "plugins/description.hpp"
 #include "text/wrapping.hpp"
 #include "verbs.hpp"
 

@@ -7,10 +7,10 @@
 
 #include "answer.hpp"
 #include "comparison/stability_answer.hpp"
-#include "describe.hpp"
 #include "exit_codes.hpp"
 #include "finite_range.hpp"
 #include "messages.hpp"
+#include "plugins/description.hpp"
 #include "subject_options.hpp"
 #include "text/wrapping.hpp"
 #include "verbs.hpp"

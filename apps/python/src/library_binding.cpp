@@ -5,9 +5,9 @@
 #include <pybind11/stl.h>
 
 #include "data/nearest.hpp"
-#include "describe.hpp"
 #include "library.hpp"
 #include "module.hpp"
+#include "plugins/description.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::python {
@@ -37,7 +37,7 @@ std::string describe(const Library& library, const std::string& name) {
   const auto look = [&](const char* kind, const auto& shelf) {
     for (const auto& [entry_name, entry] : shelf) {
       known.push_back(entry_name);
-      if (entry_name == name) document[kind] = app::description_json(entry);
+      if (entry_name == name) document[kind] = plugins::description_json(entry);
     }
   };
   look("model", catalogue->models());

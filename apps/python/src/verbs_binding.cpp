@@ -4,24 +4,25 @@
 #include <tbb/global_control.h>
 
 #include "arrays.hpp"
+#include "budget/diagnosed.hpp"
 #include "budget/discover.hpp"
 #include "calibration/calibrate.hpp"
+#include "calibration/examination_json.hpp"
 #include "calibration/overrides.hpp"
-#include "card_name.hpp"
 #include "cards/card.hpp"
-#include "check.hpp"
+#include "cards/card_name.hpp"
+#include "cohort/discovery_folder.hpp"
 #include "comparison/certify.hpp"
 #include "comparison/simulation_record.hpp"
 #include "data/nearest.hpp"
 #include "data/units.hpp"
-#include "diagnosis_folder.hpp"
-#include "discovery_folder.hpp"
-#include "discovery_request.hpp"
+#include "discovery/output/folder.hpp"
+#include "discovery/wishes.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "exporting/fitted_material.hpp"
-#include "imported.hpp"
+#include "imports/imported.hpp"
 #include "library.hpp"
 #include "module.hpp"
 #include "report/report.hpp"
@@ -94,7 +95,7 @@ std::string check(const Loaded& loaded, bool run_programs) {
   const py::gil_scoped_release free;
   const auto experiment = run_programs ? loaded.experiment : calibration::offline(loaded.experiment);
   const auto checked = calibration::examine(experiment, *loaded.catalogue, run_programs);
-  return app::check_json(checked).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return calibration::examination_json(checked).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 py::dict simulate(const Loaded& loaded, const std::string& model, const Folder& parameters, const std::string& run,
@@ -216,14 +217,14 @@ py::dict diagnose(const Loaded& loaded, const Folder& directory, unsigned thread
   return searched(
       loaded, directory, threads, progress,
       [&](const plugins::Catalogue& catalogue, const std::filesystem::path& folder, const diagnosis::Progress& told) {
-        const auto found = app::diagnosed(loaded.experiment, request, catalogue, true, told);
-        app::write_diagnosis(folder, found, loaded.experiment, *loaded.catalogue);
+        const auto found = budget::diagnosed(loaded.experiment, request, catalogue, true, told);
+        budget::write_diagnosis(folder, found, loaded.experiment, *loaded.catalogue);
       });
 }
 
 py::dict discover(const Loaded& loaded, const Folder& directory, unsigned threads, const py::dict& options,
                   const py::object& progress) {
-  app::DiscoveryWishes wishes;
+  discovery::Wishes wishes;
   wishes.seed = options["seed"].cast<std::optional<std::uint64_t>>();
   wishes.alpha = options["alpha"].cast<std::optional<double>>();
   wishes.most_terms = options["most_terms"].cast<std::optional<std::size_t>>();
@@ -233,12 +234,12 @@ py::dict discover(const Loaded& loaded, const Folder& directory, unsigned thread
   wishes.model = options["model"].cast<std::string>();
   wishes.from_nothing = options["from_nothing"].cast<bool>();
   wishes.quick = options["quick"].cast<bool>();
-  const auto request = app::request_of(loaded.experiment, wishes, "");
+  const auto request = discovery::request_of(loaded.experiment, wishes, "");
   return searched(
       loaded, directory, threads, progress,
       [&](const plugins::Catalogue& catalogue, const std::filesystem::path& folder, const diagnosis::Progress& told) {
         const auto found = budget::discover(loaded.experiment, request, catalogue, told);
-        app::write_discovery(folder, found, loaded.experiment, *loaded.catalogue);
+        discovery::write_discovery(folder, found, loaded.experiment, *loaded.catalogue);
       });
 }
 
@@ -253,7 +254,7 @@ std::string export_card(const Library& library, const std::string& result, const
   std::optional<double> mass;
   if (!density.empty()) mass = cards::density_of(density);
   std::string card = cards::write_card(cards::target_of(target), fitted.material,
-                                       {.name = name.empty() ? app::card_name(fitted.name) : name,
+                                       {.name = name.empty() ? cards::card_name(fitted.name) : name,
                                         .units = cards::unit_system(units),
                                         .bulk_ratio = bulk_ratio,
                                         .density = mass,
@@ -266,7 +267,7 @@ std::string export_card(const Library& library, const std::string& result, const
 /// Texts of the command line: single ones under the names of options, and lists.
 py::dict import_files(const Library& library, const std::map<std::string, std::string>& texts,
                       const std::map<std::string, std::vector<std::string>>& lists, bool join) {
-  app::ImportRequest request;
+  imports::ImportRequest request;
   auto& answers = request.answers;
   const std::map<std::string, std::string*> places = {{"test", &answers.test},
                                                       {"model", &answers.model},
@@ -296,10 +297,10 @@ py::dict import_files(const Library& library, const std::map<std::string, std::s
   for (const auto& [name, list] : lists) *several.at(name) = list;
   request.join = join;
   const auto catalogue = library.catalogue();
-  app::Imported imported;
+  imports::Imported imported;
   {
     const py::gil_scoped_release free;
-    imported = app::import_files(std::move(request), *catalogue, {});
+    imported = imports::import_files(std::move(request), *catalogue, {});
   }
   py::dict found;
   found["file"] = imported.file.string();

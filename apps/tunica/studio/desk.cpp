@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/provenance.hpp"
-#include "describe.hpp"
 #include "execution/files.hpp"
+#include "plugins/description.hpp"
 #include "plugins/guarded.hpp"
 #include "studio/page_files.hpp"
 #include "studio/project_folder.hpp"
@@ -112,9 +112,10 @@ json Desk::project() {
 
 json Desk::catalogue() const {
   json all = {{"models", json::array()}, {"optimizers", json::array()}, {"tests", json::array()}};
-  for (const auto& [name, entry] : session_.catalogue().models()) all["models"].push_back(description_json(entry));
+  for (const auto& [name, entry] : session_.catalogue().models())
+    all["models"].push_back(plugins::description_json(entry));
   for (const auto& [name, entry] : session_.catalogue().optimizers())
-    all["optimizers"].push_back(description_json(entry));
+    all["optimizers"].push_back(plugins::description_json(entry));
   for (const auto& [name, entry] : session_.catalogue().tests())
     all["tests"].push_back({{"name", name}, {"doc", entry.factory.doc}});
   return all;

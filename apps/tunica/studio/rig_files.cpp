@@ -11,8 +11,8 @@
 #include "data/signal.hpp"
 #include "data/table_file.hpp"
 #include "experiment/experiment.hpp"
-#include "imported.hpp"
 #include "importing/columns.hpp"
+#include "imports/imported.hpp"
 #include "studio/project_folder.hpp"
 #include "text/escaped.hpp"
 #include "text/shell.hpp"
@@ -48,16 +48,16 @@ constexpr std::array<std::pair<const char*, std::string Answers::*>, 19> texts{
      {"rows", &Answers::rows},
      {"direction", &Answers::direction}}};
 /// Those that may be repeated.
-constexpr std::array<std::pair<const char*, std::vector<std::string> ImportRequest::*>, 5> lists{
-    {{"set", &ImportRequest::options},
-     {"column", &ImportRequest::columns},
-     {"unit", &ImportRequest::units},
-     {"where", &ImportRequest::where},
-     {"compression", &ImportRequest::compressions}}};
+constexpr std::array<std::pair<const char*, std::vector<std::string> imports::ImportRequest::*>, 5> lists{
+    {{"set", &imports::ImportRequest::options},
+     {"column", &imports::ImportRequest::columns},
+     {"unit", &imports::ImportRequest::units},
+     {"where", &imports::ImportRequest::where},
+     {"compression", &imports::ImportRequest::compressions}}};
 
 /// The form as a request, and as the command that says the same.
 struct Form {
-  ImportRequest request;
+  imports::ImportRequest request;
   std::vector<std::string> words{"tunica", "import"};
   std::map<std::string, std::string> asked;
 };
@@ -170,7 +170,7 @@ void draw(const fs::path& file, const plugins::Catalogue& catalogue, json& answe
   }
 }
 
-json said(const Imported& imported, const Form& form) {
+json said(const imports::Imported& imported, const Form& form) {
   return {{"notes", imported.notes},
           {"understood", imported.understood},
           {"warnings", imported.warnings},
@@ -196,18 +196,19 @@ json look_at_rig_files(const nlohmann::json& asked, const plugins::Catalogue& ca
   json answer = {{"columns", columns_of(form)}, {"questions", json::array()}, {"signals", json::array()},
                  {"curves", json::array()},     {"provisional", false},       {"command", text::quoted(form.words)}};
   try {
-    const Imported imported = import_files(form.request, catalogue, [&](const importing::Question& question) {
-      const auto given = form.asked.find(question.option);
-      answer["questions"].push_back({{"text", question.text},
-                                     {"option", question.option},
-                                     {"example", question.example},
-                                     {"length", question.length},
-                                     {"likely", question.likely},
-                                     {"answer", given == form.asked.end() ? "" : given->second}});
-      if (given != form.asked.end()) return given->second;
-      answer["provisional"] = true;
-      return question.example;
-    });
+    const imports::Imported imported =
+        imports::import_files(form.request, catalogue, [&](const importing::Question& question) {
+          const auto given = form.asked.find(question.option);
+          answer["questions"].push_back({{"text", question.text},
+                                         {"option", question.option},
+                                         {"example", question.example},
+                                         {"length", question.length},
+                                         {"likely", question.likely},
+                                         {"answer", given == form.asked.end() ? "" : given->second}});
+          if (given != form.asked.end()) return given->second;
+          answer["provisional"] = true;
+          return question.example;
+        });
     answer.update(said(imported, form));
     draw(trial.file, catalogue, answer);
   } catch (const InputError& problem) {
@@ -226,12 +227,13 @@ json import_rig_files(const nlohmann::json& asked, const plugins::Catalogue& cat
   const FreeName name(output);
   form.request.output = name.file.generic_string();
   std::vector<std::string> missing;
-  const Imported imported = import_files(form.request, catalogue, [&](const importing::Question& question) {
-    const auto given = form.asked.find(question.option);
-    if (given != form.asked.end()) return given->second;
-    missing.push_back(question.text);
-    return question.example;
-  });
+  const imports::Imported imported =
+      imports::import_files(form.request, catalogue, [&](const importing::Question& question) {
+        const auto given = form.asked.find(question.option);
+        if (given != form.asked.end()) return given->second;
+        missing.push_back(question.text);
+        return question.example;
+      });
   if (!missing.empty()) {
     std::error_code none;
     fs::remove(imported.file, none);

@@ -15,7 +15,7 @@
 #include "assembly/misfit_size.hpp"
 #include "assembly/quality.hpp"
 #include "calibration/examination.hpp"
-#include "check.hpp"
+#include "calibration/examination_json.hpp"
 #include "comparison/stability_report.hpp"
 #include "data/nearest.hpp"
 #include "execution/files.hpp"
@@ -329,7 +329,7 @@ json Workbench::judge(const std::string& name, const std::string& label, const s
 
 json Workbench::check(const std::string& name) {
   const auto experiment = calibration::offline(read_confined(session_, file_inside(name)));
-  return check_json(calibration::examine(experiment, session_.catalogue()));
+  return calibration::examination_json(calibration::examine(experiment, session_.catalogue()));
 }
 
 }  // namespace tunica::app::studio

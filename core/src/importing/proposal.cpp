@@ -380,6 +380,8 @@ class File {
 
 }  // namespace
 
+std::string test_of_joined_files() { return "biaxial"; }
+
 Proposal propose(const Answers& answers, const std::filesystem::path& folder, const plugins::Catalogue& catalogue,
                  const Ask& ask) {
   Proposal proposal;

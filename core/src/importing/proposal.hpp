@@ -53,6 +53,9 @@ struct Proposal {
   std::vector<std::string> notes;  ///< what was understood, in sentences
 };
 
+/// The type of test that two files of a sheet make, one along each axis.
+std::string test_of_joined_files();
+
 /// Reads the files, and proposes a test (with its data block) for each, a model and a run for each. Relative names in
 /// it begin at `folder`. Throws InputError on a file that is no table, and on columns that make no test.
 Proposal propose(const Answers& answers, const std::filesystem::path& folder, const plugins::Catalogue& catalogue,

@@ -8,13 +8,13 @@
 #include "diagnosis/diagnosis.hpp"
 #include "discovery/after_diagnosis.hpp"
 
-namespace tunica::app {
+namespace tunica::budget {
 
 /// A diagnosis, the search for terms that followed it, and what takes how much of the misfit.
 struct DiagnosisAndSearch {
   diagnosis::Diagnosis diagnosis;
   std::optional<discovery::Discovery> search;
-  std::optional<budget::Budget> budget = {};
+  std::optional<Budget> budget = {};
 
   [[nodiscard]] bool discovered() const { return diagnosis.explanation.verdict == diagnosis::Verdict::discovered; }
   [[nodiscard]] bool leads() const { return diagnosis.explanation.verdict == diagnosis::Verdict::leading; }
@@ -30,4 +30,4 @@ DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const dia
 void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndSearch& found,
                      const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
 
-}  // namespace tunica::app
+}  // namespace tunica::budget

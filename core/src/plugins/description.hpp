@@ -7,7 +7,7 @@
 
 #include "plugins/catalogue.hpp"
 
-namespace tunica::app {
+namespace tunica::plugins {
 
 /// Options with their defaults; where the user must give one, the first that is allowed, since the object is made
 /// only to be asked what it is.
@@ -18,12 +18,12 @@ struct TestParameters {
   std::vector<Parameter> parameters;
   std::vector<double> nulls;
 };
-TestParameters parameters_of(const plugins::Catalogue::Entry<TestFactory>& entry);
+TestParameters parameters_of(const Catalogue::Entry<TestFactory>& entry);
 
 /// What `describe --json` prints of one object.
-nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<ModelFactory>& entry);
-nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<TestFactory>& entry);
-nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<OptimizerFactory>& entry);
-nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<MechanismFactory>& entry);
+nlohmann::ordered_json description_json(const Catalogue::Entry<ModelFactory>& entry);
+nlohmann::ordered_json description_json(const Catalogue::Entry<TestFactory>& entry);
+nlohmann::ordered_json description_json(const Catalogue::Entry<OptimizerFactory>& entry);
+nlohmann::ordered_json description_json(const Catalogue::Entry<MechanismFactory>& entry);
 
-}  // namespace tunica::app
+}  // namespace tunica::plugins

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "imported.hpp"
+#include "imports/imported.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 #include "importing/joined.hpp"
 #include "tunica/error.hpp"
 
-namespace tunica::app {
+namespace tunica::imports {
 
 namespace {
 
@@ -160,7 +160,7 @@ void join_files(ImportRequest& request, const std::filesystem::path& joined) {
   execution::write_atomically(joined, importing::joined_table(request.answers));
   request.answers.files = {joined};
   request.answers.delimiter = request.answers.decimal = request.answers.skip_lines = "";
-  if (request.answers.test.empty()) request.answers.test = "biaxial";
+  if (request.answers.test.empty()) request.answers.test = importing::test_of_joined_files();
 }
 
 void check_sizes(ImportRequest& request, std::vector<std::string>& warnings) {
@@ -219,4 +219,4 @@ Imported import_files(ImportRequest request, const plugins::Catalogue& catalogue
   return imported;
 }
 
-}  // namespace tunica::app
+}  // namespace tunica::imports

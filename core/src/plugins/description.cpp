@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "plugins/description.hpp"
+
 #include <cmath>
 #include <cstdint>
 
 #include <fmt/format.h>
 
-#include "describe.hpp"
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
 
-namespace tunica::app {
+namespace tunica::plugins {
 
 namespace {
 
@@ -85,7 +86,7 @@ Options any_options(const std::vector<Option>& options) {
   return values;
 }
 
-TestParameters parameters_of(const plugins::Catalogue::Entry<TestFactory>& entry) {
+TestParameters parameters_of(const Catalogue::Entry<TestFactory>& entry) {
   const auto& factory = entry.factory;
   TestSetup setup;
   setup.options = any_options(factory.options);
@@ -105,7 +106,7 @@ TestParameters parameters_of(const plugins::Catalogue::Entry<TestFactory>& entry
   }
 }
 
-json description_json(const plugins::Catalogue::Entry<ModelFactory>& entry) {
+json description_json(const Catalogue::Entry<ModelFactory>& entry) {
   const auto& factory = entry.factory;
   const auto model = plugins::create(entry, any_options(factory.options));
   json document = head(factory.type, factory.doc, factory.reference, entry.plugin);
@@ -119,7 +120,7 @@ json description_json(const plugins::Catalogue::Entry<ModelFactory>& entry) {
   return document;
 }
 
-json description_json(const plugins::Catalogue::Entry<TestFactory>& entry) {
+json description_json(const Catalogue::Entry<TestFactory>& entry) {
   const auto& factory = entry.factory;
   json document = head(factory.type, factory.doc, factory.reference, entry.plugin);
   document["observables"] = json::array();
@@ -138,7 +139,7 @@ json description_json(const plugins::Catalogue::Entry<TestFactory>& entry) {
   return document;
 }
 
-json description_json(const plugins::Catalogue::Entry<OptimizerFactory>& entry) {
+json description_json(const Catalogue::Entry<OptimizerFactory>& entry) {
   const auto& factory = entry.factory;
   const auto optimizer = plugins::create(entry, any_options(factory.options));
   const auto needs = plugins::needs(entry.plugin, *optimizer);
@@ -152,7 +153,7 @@ json description_json(const plugins::Catalogue::Entry<OptimizerFactory>& entry) 
   return document;
 }
 
-json description_json(const plugins::Catalogue::Entry<MechanismFactory>& entry) {
+json description_json(const Catalogue::Entry<MechanismFactory>& entry) {
   const auto& factory = entry.factory;
   json document = head(factory.id, factory.cause, factory.reference, entry.plugin);
   document["parameters"] = parameters_json(factory.parameters);
@@ -170,4 +171,4 @@ json description_json(const plugins::Catalogue::Entry<MechanismFactory>& entry) 
   return document;
 }
 
-}  // namespace tunica::app
+}  // namespace tunica::plugins

@@ -5,9 +5,9 @@
 
 #include "calibration/examination.hpp"
 
-namespace tunica::app {
+namespace tunica::calibration {
 
 /// What `tunica check --json` prints.
-nlohmann::ordered_json check_json(const calibration::Examination& checked);
+nlohmann::ordered_json examination_json(const Examination& checked);
 
-}  // namespace tunica::app
+}  // namespace tunica::calibration

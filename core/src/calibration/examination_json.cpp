@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "calibration/examination_json.hpp"
+
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
 
-#include "check.hpp"
 #include "comparison/result_json.hpp"
 
-namespace tunica::app {
+namespace tunica::calibration {
 
 namespace {
 
@@ -83,7 +84,7 @@ json initial_json(const calibration::PosedProblem& problem) {
 
 }  // namespace
 
-json check_json(const calibration::Examination& checked) {
+json examination_json(const Examination& checked) {
   json document = {{"name", checked.experiment.name},  {"in_order", checked.good()},
                    {"seed", checked.experiment.seed},  {"warnings", json::array()},
                    {"warning_details", json::array()}, {"runs", json::array()},
@@ -119,4 +120,4 @@ json check_json(const calibration::Examination& checked) {
   return document;
 }
 
-}  // namespace tunica::app
+}  // namespace tunica::calibration

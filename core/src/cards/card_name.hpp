@@ -4,7 +4,7 @@
 #include <cctype>
 #include <string>
 
-namespace tunica::app {
+namespace tunica::cards {
 
 /// The model's name as a card can have it.
 inline std::string card_name(const std::string& model) {
@@ -14,4 +14,4 @@ inline std::string card_name(const std::string& model) {
   return name.substr(0, 40);
 }
 
-}  // namespace tunica::app
+}  // namespace tunica::cards

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnosis_folder.hpp"
+#include "budget/diagnosed.hpp"
 
 #include <algorithm>
 #include <string>
@@ -12,7 +12,7 @@
 #include "discovery/output/outputs.hpp"
 #include "execution/files.hpp"
 
-namespace tunica::app {
+namespace tunica::budget {
 
 DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const diagnosis::Request& request,
                              const plugins::Catalogue& catalogue, bool discovers, const diagnosis::Progress& progress) {
@@ -27,9 +27,8 @@ DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const dia
   DiagnosisAndSearch found{diagnosis::diagnose(experiment, request, catalogue, first), {}};
   if (discovers) found.search = discovery::after(found.diagnosis, experiment, catalogue, last);
   if (found.search) found.diagnosis = discovery::with_verdict_of(*found.search, std::move(found.diagnosis));
-  found.budget =
-      budget::budget_of(found.diagnosis, found.search ? &*found.search : nullptr, experiment, catalogue, last);
-  found.diagnosis = budget::with_verdict_of(*found.budget, experiment, catalogue, std::move(found.diagnosis));
+  found.budget = budget_of(found.diagnosis, found.search ? &*found.search : nullptr, experiment, catalogue, last);
+  found.diagnosis = with_verdict_of(*found.budget, experiment, catalogue, std::move(found.diagnosis));
   if (progress) progress("done", 1);
   return found;
 }
@@ -42,8 +41,7 @@ void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndS
   if (found.search) more["discovery"] = discovery::discovery_json(*found.search);
   // The terms take the place of a mechanism that leaves more than noise.
   if (found.discovered()) extended = discovery::extended_experiment(*found.search, catalogue);
-  if (extended.empty() && found.leads())
-    extended = budget::extended_experiment(*found.budget, found.diagnosis, catalogue);
+  if (extended.empty() && found.leads()) extended = extended_experiment(*found.budget, found.diagnosis, catalogue);
   if (extended.empty()) extended = diagnosis::extended_experiment(found.diagnosis, catalogue);
   if (!extended.empty()) execution::write_atomically(directory / "extended.json", extended);
   for (const auto& [name, text] : diagnosis::mended_files(found.diagnosis, directory, catalogue))
@@ -57,9 +55,9 @@ void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndS
         diagnosis::residual_table(found.diagnosis.analysis.evidence, &found.budget->fitted->extension->assembly(),
                                   &found.budget->fitted->fit, {}));
   nlohmann::ordered_json of_diagnosis = nlohmann::ordered_json::object();
-  if (found.budget) of_diagnosis["budget"] = budget::budget_json(*found.budget);
+  if (found.budget) of_diagnosis["budget"] = budget_json(*found.budget);
   execution::write_atomically(directory / "result.json",
                               diagnosis::result_document(found.diagnosis, experiment, catalogue, more, of_diagnosis));
 }
 
-}  // namespace tunica::app
+}  // namespace tunica::budget

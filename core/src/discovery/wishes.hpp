@@ -8,10 +8,10 @@
 
 #include "discovery/request.hpp"
 
-namespace tunica::app {
+namespace tunica::discovery {
 
 /// What a user says beside the file; what is left open stays as the file has it.
-struct DiscoveryWishes {
+struct Wishes {
   std::optional<std::uint64_t> seed;
   std::optional<double> alpha;
   std::optional<std::size_t> most_terms, most_parameters;
@@ -21,7 +21,6 @@ struct DiscoveryWishes {
 };
 
 /// Throws InputError for a word that is not known, with the nearest one. `prefix`: how options are written, "--".
-discovery::Request request_of(const experiment::Experiment& experiment, const DiscoveryWishes& wishes,
-                              const std::string& prefix = "--");
+Request request_of(const experiment::Experiment& experiment, const Wishes& wishes, const std::string& prefix = "--");
 
-}  // namespace tunica::app
+}  // namespace tunica::discovery

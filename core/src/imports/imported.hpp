@@ -9,7 +9,7 @@
 #include "importing/proposal.hpp"
 
 /// `tunica import` without a terminal: what the command line and Python share.
-namespace tunica::app {
+namespace tunica::imports {
 
 /// Options as the command line has them: lists of "NAME=VALUE", and words for all or for one.
 struct ImportRequest {
@@ -36,4 +36,4 @@ struct Imported {
 Imported import_files(ImportRequest request, const plugins::Catalogue& catalogue, const importing::Ask& ask,
                       const std::function<void(const std::vector<std::filesystem::path>&)>& making = {});
 
-}  // namespace tunica::app
+}  // namespace tunica::imports

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "discovery_request.hpp"
+#include "discovery/wishes.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 #include "data/nearest.hpp"
 #include "tunica/error.hpp"
 
-namespace tunica::app {
+namespace tunica::discovery {
 
 namespace {
 
@@ -21,9 +21,8 @@ void check_words(const std::string& option, const std::vector<std::string>& word
 
 }  // namespace
 
-discovery::Request request_of(const experiment::Experiment& experiment, const DiscoveryWishes& wishes,
-                              const std::string& prefix) {
-  discovery::Request request = discovery::request_of(experiment);
+Request request_of(const experiment::Experiment& experiment, const Wishes& wishes, const std::string& prefix) {
+  Request request = request_of(experiment);
   check_words(prefix + "invariants", wishes.invariants, experiment::discovery_invariants);
   check_words(prefix + "laws", wishes.laws, experiment::discovery_laws);
   std::vector<std::string> models;
@@ -43,4 +42,4 @@ discovery::Request request_of(const experiment::Experiment& experiment, const Di
   return request;
 }
 
-}  // namespace tunica::app
+}  // namespace tunica::discovery
