@@ -6,6 +6,7 @@
 #include "cards/card.hpp"
 #include "cards/comment.hpp"
 #include "cards/given.hpp"
+#include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
 
 using namespace tunica;
@@ -213,4 +214,21 @@ TEST(Units, OfCardsAreConsistent) {
               AllOf(HasSubstr("N over the square of mm is 1000 kPa"), HasSubstr("mm-N-MPa")));
   EXPECT_THAT(refusal([] { (void)cards::unit_system("SI"); }), HasSubstr("expected length-force-stress"));
   EXPECT_THAT(refusal([] { (void)cards::unit_system("mm-parsnip-MPa"); }), HasSubstr("parsnip"));
+}
+
+TEST(Cards, NameThePluginWhoseEnergyThrows) {
+  ModelFactory factory;
+  factory.type = "broken";
+  factory.create = [](const Options&) { return std::unique_ptr<Model>(); };
+  factory.card = [](const Options&, std::span<const double>) -> CardEnergy { throw std::runtime_error("no energy"); };
+  plugins::Catalogue::Registration registration;
+  registration.add(std::move(factory));
+  plugins::Catalogue catalogue;
+  catalogue.commit(std::move(registration), "broken 1.0");
+  try {
+    (void)cards::material_of(catalogue, {"broken", {}}, {}, {});
+    FAIL() << "it throws";
+  } catch (const plugins::PluginFailure& failure) {
+    EXPECT_THAT(failure.what(), HasSubstr("plugin 'broken 1.0' failed: no energy"));
+  }
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "data/nearest.hpp"
+#include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cards {
@@ -51,9 +52,11 @@ Numbers numbers_of(const FibreEnergy& energy) {
   return numbers;
 }
 
-const CardFormula& formula_of(const plugins::Catalogue& catalogue, const std::string& model) {
+/// The model's entry, which declares an energy for cards.
+const plugins::Catalogue::Entry<ModelFactory>& model_with_card(const plugins::Catalogue& catalogue,
+                                                               const std::string& model) {
   const auto found = catalogue.models().find(model);
-  if (found != catalogue.models().end() && found->second.factory.card) return found->second.factory.card;
+  if (found != catalogue.models().end() && found->second.factory.card) return found->second;
   std::vector<std::string> known;
   for (const auto& [name, entry] : catalogue.models())
     if (entry.factory.card) known.push_back(name);
@@ -86,19 +89,23 @@ double stiffness_of(const FibreEnergy& energy) {
 Material material_of(const plugins::Catalogue& catalogue, const Ingredient& model,
                      std::span<const Ingredient> mechanisms, std::span<const double> values) {
   Material material{.type = model.type};
-  const CardFormula& formula = formula_of(catalogue, model.type);
+  const auto& declared = model_with_card(catalogue, model.type);
   for (std::size_t k = 0; k < mechanisms.size(); ++k) {
-    const MechanismFactory& mechanism = catalogue.mechanisms().find(mechanisms[k].type)->second.factory;
+    const auto& entry = catalogue.mechanisms().find(mechanisms[k].type)->second;
+    const MechanismFactory& mechanism = entry.factory;
     if (!mechanism.card_volume || k > 0)
       throw InputError(
           fmt::format("the mechanism '{}' changes the model '{}', and no card has it{}; take it out, or take a model "
                       "that contains it. A template may write the parameters by name instead of a card",
                       mechanism.id, model.type, mechanism.card_volume ? " beside another one" : ""));
     const std::size_t own = mechanism.parameters_with(mechanisms[k].options).size();
-    material.volume = mechanism.card_volume(mechanisms[k].options, values.last(own));
+    material.volume = plugins::guarded(entry.plugin, "card_volume", [&] {
+      return mechanism.card_volume(mechanisms[k].options, values.last(own));
+    });
     values = values.first(values.size() - own);
   }
-  material.energy = formula(model.options, values);
+  material.energy =
+      plugins::guarded(declared.plugin, "card", [&] { return declared.factory.card(model.options, values); });
   return material;
 }
 
