@@ -17,6 +17,7 @@
 #include "tunica/model.hpp"
 #include "tunica/optimizer.hpp"
 #include "tunica/options.hpp"
+#include "tunica/planned_test.hpp"
 #include "tunica/test.hpp"
 
 /// \file
@@ -100,6 +101,9 @@ struct TestFactory {
   /// Optional, for a costly test: the cheaper test that guides a search where an experiment asks for a guide. The
   /// answer stays that of this test. Empty, or none for these options: there is no guide.
   std::function<std::optional<StandIn>(const Options&)> stand_in = {};
+  /// Optional: experiments of this type that a lab could make next. A diagnosis suggests the one that tells its rivals
+  /// apart best. It does not suggest types without this function.
+  std::function<std::vector<PlannedTest>(const PlanningScope&)> plan = {};
 };
 
 /// How the host makes an optimizer, and what it prints about the type before there is one.

@@ -196,6 +196,22 @@ class Biaxial final : public Test {
 using Role = Observable::Role;
 using Kind = Observable::Kind;
 
+/// Sheets pulled equally, and twice as far in one direction.
+std::vector<PlannedTest> plan(const PlanningScope& scope) {
+  const double edge = 1 + 0.7 * (scope.reach - 1), half = 1 + (edge - 1) / 2;
+  const auto sheet = [](const char* description, double circumferential, double axial) {
+    return PlannedTest{
+        description,
+        {{"protocol", std::string("general")}},
+        {{"stretch_circumferential", even_steps(1, circumferential)}, {"stretch_axial", even_steps(1, axial)}},
+        {},
+        {"stress_circumferential", "stress_axial"}};
+  };
+  return {sheet("a sheet stretched equally in both directions", edge, edge),
+          sheet("a sheet stretched twice as far along the circumference as along the axis", edge, half),
+          sheet("a sheet stretched twice as far along the axis as along the circumference", half, edge)};
+}
+
 TestFactory factory() {
   return {
       "biaxial",
@@ -222,7 +238,10 @@ TestFactory factory() {
        {"stress", "kPa", Role::channel, false,
         "Stress along the pulled direction of pure_shear; mean of both directions in equibiaxial.", Kind::stress}},
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Biaxial>(setup); },
-      {}};
+      {},
+      false,
+      {},
+      plan};
 }
 
 }  // namespace

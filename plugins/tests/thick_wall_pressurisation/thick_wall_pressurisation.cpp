@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "history.hpp"
 #include "through_wall.hpp"
 #include "tunica/plugin.hpp"
@@ -90,6 +92,25 @@ std::vector<Option> options() {
   return all;
 }
 
+/// The tubes that were made, at another axial stretch.
+std::vector<PlannedTest> plan(const PlanningScope& scope) {
+  std::vector<PlannedTest> plans;
+  for (const PlanningScope::Made& tube : scope.made)
+    for (const double change : {-0.1, 0.1}) {
+      if (!tube.options.has("axial_stretch") || !(tube.largest_loaded > 0)) continue;
+      const double stretch = tube.options.number("axial_stretch") + change;
+      if (stretch < 1) continue;
+      PlannedTest plan{fmt::format("the tube of '{}' inflated at an axial stretch of {:.3g}", tube.name, stretch),
+                       {tube.options.values().begin(), tube.options.values().end()},
+                       {{"pressure", even_steps(0, tube.largest_loaded)}},
+                       {},
+                       {"outer_diameter_stretch", "axial_force"}};
+      plan.options.emplace_back("axial_stretch", stretch);
+      plans.push_back(std::move(plan));
+    }
+  return plans;
+}
+
 TestFactory factory() {
   return {
       "thick_wall_pressurisation",
@@ -99,7 +120,9 @@ TestFactory factory() {
       tube_observables(),
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<ThickWallPressurisation>(setup); },
       own_parameters(false),
-      true};
+      true,
+      {},
+      plan};
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <limits>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "along_radius.hpp"
 #include "axes_path.hpp"
 #include "compressible.hpp"
@@ -177,6 +179,42 @@ class Uniaxial final : public Test {
   MemoryPath memory_;
 };
 
+/// Strips along both directions with their width measured, and one cut at 45°. Where there is a clock, a slow cycle and
+/// a hold as well.
+std::vector<PlannedTest> plan(const PlanningScope& scope) {
+  std::vector<PlannedTest> plans;
+  const auto strip = [&](std::string description, const char* direction, std::vector<double> stretch,
+                         std::vector<double> time) -> PlannedTest& {
+    return plans.emplace_back(PlannedTest{std::move(description),
+                                          {{"direction", std::string(direction)}},
+                                          {{"stretch", std::move(stretch)}},
+                                          std::move(time),
+                                          {"stress"}});
+  };
+  const double reach = scope.reach;
+  for (const char* direction : {"circumferential", "axial"})
+    strip(fmt::format("a strip pulled along the {} direction to a stretch of {:.3g}, its width measured too", direction,
+                      reach),
+          direction, even_steps(1, reach), {})
+        .channels.push_back("transverse_stretch");
+  strip(fmt::format("a strip cut at 45° between the axes, pulled to {:.3g}", reach), "axial", even_steps(1, reach), {})
+      .parameters = {{"misalignment", 45}};
+  if (!(scope.shortest_time > 0)) return plans;
+  std::vector<double> cycle = even_steps(1, reach, 10), back = even_steps(reach, 1 + 0.1 * (reach - 1), 10);
+  cycle.insert(cycle.end(), back.begin(), back.end());
+  strip(fmt::format("one slow cycle of a strip, to {:.3g} and back in {:.3g} s", reach, 10 * scope.longest_time),
+        "circumferential", cycle, even_steps(0, 10 * scope.longest_time));
+  std::vector<double> hold = even_steps(1, reach, 4), time = even_steps(0, scope.shortest_time / 20, 4);
+  for (const double later : even_steps(0, scope.longest_time, 16)) {
+    hold.push_back(reach);
+    time.push_back(time[3] + later);
+  }
+  strip(fmt::format("a strip pulled to {:.3g} within {:.3g} s and held for {:.3g} s", reach, scope.shortest_time / 20,
+                    scope.longest_time),
+        "circumferential", hold, time);
+  return plans;
+}
+
 TestFactory factory() {
   return {
       "uniaxial",
@@ -204,7 +242,10 @@ TestFactory factory() {
        {"volume_ratio", "1", Observable::Role::channel, false,
         "Volume over that of the unloaded strip; 1 unless the model is compressible.", Observable::Kind::plain}},
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Uniaxial>(setup); },
-      own_parameters()};
+      own_parameters(),
+      false,
+      {},
+      plan};
 }
 
 }  // namespace

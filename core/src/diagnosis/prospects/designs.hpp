@@ -19,11 +19,8 @@ struct Design {
   std::vector<double> sd;          ///< of each predicted value
 };
 
-/// The library: strips along both directions with their width measured, a strip cut at 45°, sheets pulled equally and
-/// twice as far in one direction, a load–unload cycle and a hold where the data have time, and where tubes were
-/// measured the same tube at another axial stretch. Stretches reach as far as those of the data; noise is that of the
-/// data's channels of the same kind, else 1.5 % of the largest value, which `scale` predicts at its parameters. Types
-/// that no plugin provides are left out.
+/// What the test plugins plan (TestFactory::plan). Noise is that of the data's channels of the same kind, else 1.5 % of
+/// the largest value, which `scale` predicts at its parameters.
 std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, const assembly::Assembly& scale,
                             std::span<const double> free);
 

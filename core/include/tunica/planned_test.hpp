@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tunica/options.hpp"
+
+namespace tunica {
+
+/// What is known when the next experiment is chosen. A plan that needs more than this is left out by its plugin.
+struct PlanningScope {
+  /// A test of the type in question that was made, on one model throughout. Tests with layers are not told.
+  struct Made {
+    /// Its name in the experiment file, for descriptions.
+    std::string name;
+    /// All of its options, with defaults filled in.
+    Options options;
+    /// The largest value of its first abscissa, in the base unit.
+    double largest_loaded;
+  };
+  /// The largest stretch of the specimens so far, held between 1.15 and 8.
+  double reach = 1;
+  /// Duration of the shortest and of the longest test that has a clock, s. Both are 0 where none has one.
+  double shortest_time = 0, longest_time = 0;
+  /// In the order of the file; empty where no test of the type was made.
+  std::vector<Made> made;
+};
+
+/// An experiment that a lab could make next, as the rows that it would have. The host weighs what its rows would tell
+/// against those of other plans, with the noise that the data have. It leaves out a plan whose test cannot be made or
+/// predicted.
+struct PlannedTest {
+  /// For users, behind "measure": "a sheet stretched equally in both directions".
+  std::string description;
+  /// Options that differ from their defaults; of two of one name the last holds.
+  std::vector<std::pair<std::string, Option::Value>> options;
+  /// Observable → n values, in base units; at least one, all of one length.
+  std::vector<std::pair<std::string, std::vector<double>>> abscissae;
+  /// n values, s, in loading order; empty where the rows have no clock.
+  std::vector<double> time;
+  /// Observables that would be measured.
+  std::vector<std::string> channels;
+  /// Parameters of the test that differ from their null, in base units. They may lie outside their bounds.
+  std::vector<std::pair<std::string, double>> parameters = {};
+};
+
+/// `count` even steps from behind `from` to `to`.
+inline std::vector<double> even_steps(double from, double to, std::size_t count = 20) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i)
+    values.push_back(from + (to - from) * static_cast<double>(i + 1) / static_cast<double>(count));
+  return values;
+}
+
+}  // namespace tunica
