@@ -8,6 +8,10 @@
 
 #include "tunica/options.hpp"
 
+/// \file
+/// Experiments that a lab could make next, as TestFactory::plan has them. A plan is a function of what is known: it keeps
+/// nothing, and several threads may ask at once. What it throws ends the diagnosis with the name of its plugin.
+
 namespace tunica {
 
 /// What is known when the next experiment is chosen. A plan that needs more than this is left out by its plugin.
@@ -47,7 +51,8 @@ struct PlannedTest {
   std::vector<std::pair<std::string, double>> parameters = {};
 };
 
-/// `count` even steps from behind `from` to `to`.
+/// `count` values in even steps, in any unit. The first is one step from `from`, the last is `to`.
+/// For example, even_steps(1, 1.4, 2) is {1.2, 1.4}.
 inline std::vector<double> even_steps(double from, double to, std::size_t count = 20) {
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i)
