@@ -133,11 +133,14 @@ std::string unknown_words(const Budget& budget) {
                         budget.unlisted_probability);
   else if (best.share < most_of_it)
     text += fmt::format(", and no {}cause takes half", all.front().is_state() ? "listed " : "");
-  if (const Contender& most = all.front(); most.is_state() && best.share < most_of_it)
+  const Contender& most = all.front();
+  const bool state_said = most.is_state() && best.share < most_of_it;
+  if (state_said)
     text += fmt::format("; {}{} takes {}{}", most.id, place_of(most.place), percent(most.share), price(most));
   const Contender& likeliest = *std::max_element(
       all.begin(), all.end(), [](const Contender& a, const Contender& b) { return a.probability < b.probability; });
-  if (&likeliest != &best && likeliest.probability > std::max(best.probability, 1 - sure_enough))
+  if (&likeliest != &best && !(state_said && &likeliest == &most) &&
+      likeliest.probability > std::max(best.probability, 1 - sure_enough))
     text += fmt::format("; the likeliest cause, {}{}, takes {} and has probability {:.2f}", likeliest.id,
                         place_of(likeliest.place), percent(likeliest.share), likeliest.probability);
   return text;
