@@ -82,6 +82,26 @@ PLATES = {
 }
 
 
+def thinned(file, folder, every=7):
+    """Every seventh point of each step and a coarser mesh, with an isotropic base."""
+    title, *rows = (folder / "field.csv").read_text(encoding="utf-8").splitlines()
+    steps = {}
+    for row in rows:
+        steps.setdefault(row.split(",")[0], []).append(row)
+    kept = [row for step in steps.values() for row in step[::every]]
+    (folder / "field.csv").write_text("\n".join([title, *kept]) + "\n", encoding="utf-8")
+    file["models"]["material"] = {"type": "neo_hooke", "mechanisms": [VOLUME]}
+    file["tests"]["plate"]["mesh"]["size"] = "0.12 mm"
+
+
+def diagnose(tunica, folder, name):
+    """Prints what leads where an isotropic base is fitted."""
+    subprocess.run([tunica, "diagnose", folder / "experiment.json", "--quick", "-o", folder / "causes", "--quiet"], check=True,
+                   stdout=subprocess.DEVNULL)
+    found = json.loads((folder / "causes/result.json").read_text(encoding="utf-8"))["diagnosis"]
+    print(f"{name:16} {found['verdict']}: {'; '.join(found['reasons'])}", flush=True)
+
+
 def discover(tunica, folder, name):
     """Prints the terms that are found from nothing, and how long it took."""
     begin = time.monotonic()
@@ -102,14 +122,20 @@ def main():
     arguments.add_argument("out", type=Path, help="a new folder")
     arguments.add_argument("--only", nargs="*", help="plates such as neohookean_low")
     arguments.add_argument("--discover", action="store_true", help="look for the terms instead, from nothing")
+    arguments.add_argument("--diagnose", action="store_true", help="look for what an isotropic base misses instead")
     given = arguments.parse_args()
     for name in given.only or [f"{plate}_{level}" for plate in PLATES for level in ("low", "high")]:
         plate, level = name.split("_")
         model, truth = PLATES[plate]
         folder = given.out / name
         convert(given.data / name, folder)
-        (folder / "experiment.json").write_text(
-            json.dumps(experiment("1e-4 mm" if level == "low" else "1e-3 mm", model), indent=1), encoding="utf-8")
+        file = experiment("1e-4 mm" if level == "low" else "1e-3 mm", model)
+        if given.diagnose:
+            thinned(file, folder)
+        (folder / "experiment.json").write_text(json.dumps(file, indent=1), encoding="utf-8")
+        if given.diagnose:
+            diagnose(given.tunica, folder, name)
+            continue
         if given.discover:
             discover(given.tunica, folder, name)
             continue

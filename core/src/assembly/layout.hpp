@@ -79,6 +79,8 @@ struct MeasuredChannel {
   [[nodiscard]] std::size_t file_row(std::size_t row) const { return file_rows.empty() ? row : file_rows[row]; }
   /// Whether its rows are points of a measured field: "x" and "y" are prescribed.
   [[nodiscard]] bool is_field() const { return coordinate("x") != nullptr && coordinate("y") != nullptr; }
+  /// Whether a row is such a point: a force that was measured beside the field has no place.
+  [[nodiscard]] bool is_point(std::size_t row) const { return is_field() && std::isfinite((*coordinate("x"))[row]); }
   /// The values of a prescribed quantity; null where there is no such.
   [[nodiscard]] const std::vector<double>* coordinate(std::string_view name) const {
     if (abscissa_name == name) return &abscissa;

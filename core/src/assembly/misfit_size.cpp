@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -62,6 +63,19 @@ std::vector<double> observable_ranges(const Layout& layout, const experiment::Ex
   return ranges;
 }
 
+double counted_rows(const MeasuredChannel& view) {
+  std::set<double> steps;
+  double rows = 0;
+  for (std::size_t i = 0; i < view.count; ++i) {
+    if (!view.fitted[i]) continue;
+    if (view.is_point(i))
+      steps.insert(view.abscissa[i]);
+    else
+      ++rows;
+  }
+  return rows + static_cast<double>(steps.size());
+}
+
 MisfitSize::MisfitSize(std::vector<Channel> channels) : channels_(std::move(channels)) {
   for (const Channel& one : channels_) {
     places_.push_back({rows_, static_cast<Eigen::Index>(one.noise.sd.size())});
@@ -86,10 +100,14 @@ double MisfitSize::squares(double chi2, std::size_t free) const {
 }
 
 Size MisfitSize::of(const Eigen::VectorXd& residuals, std::size_t free) const {
-  double errors = 0;
-  for (std::size_t k = 0; k < channels_.size(); ++k) errors += error_squares(k, residuals);
-  const double n = static_cast<double>(std::max<Eigen::Index>(rows_, 1)), chi2 = residuals.squaredNorm();
-  const double scale = chi2 > 0 ? errors / chi2 / n : 0;
+  double errors = 0, counted = 0;
+  for (std::size_t k = 0; k < channels_.size(); ++k) {
+    const auto rows = static_cast<double>(std::max<Eigen::Index>(places_[k].count, 1));
+    errors += error_squares(k, residuals) * channels_[k].counted / rows;
+    counted += channels_[k].counted;
+  }
+  const double chi2 = residuals.squaredNorm();
+  const double scale = chi2 > 0 ? errors / chi2 / std::max(counted, 1.0) : 0;
   return {std::sqrt(scale * squares(residuals, free)),
           std::sqrt(scale * noncentrality_bound(chi2, freedom_of(rows_, rows_, free)))};
 }
@@ -103,7 +121,7 @@ std::vector<ChannelSize> MisfitSize::channels(const Eigen::VectorXd& residuals, 
     const double n = static_cast<double>(std::max<Eigen::Index>(count, 1)), freedom = freedom_of(count, rows_, free);
     const double scale = x > 0 ? error_squares(k, residuals) * one.range * one.range / x / n : 0;
     sizes.push_back({one.test, one.name, one.unit, one.range, std::sqrt(scale * std::max(x - freedom, 0.0)),
-                     std::sqrt(scale * noncentrality_bound(x, freedom)), static_cast<std::size_t>(count)});
+                     std::sqrt(scale * noncentrality_bound(x, freedom)), static_cast<std::size_t>(count), one.counted});
   }
   return sizes;
 }
@@ -129,9 +147,8 @@ std::optional<double> stated_tolerance(const std::vector<std::pair<std::string, 
 double over_rows(const std::vector<ChannelSize>& channels, const std::vector<double>& shares) {
   double sum = 0, rows = 0;
   for (std::size_t k = 0; k < channels.size(); ++k) {
-    const auto n = static_cast<double>(channels[k].rows);
-    sum += n * shares[k] * shares[k];
-    rows += n;
+    sum += channels[k].counted * shares[k] * shares[k];
+    rows += channels[k].counted;
   }
   return rows > 0 ? std::sqrt(sum / rows) : 0;
 }

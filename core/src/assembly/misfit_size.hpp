@@ -24,6 +24,7 @@ struct ChannelSize {
   double range = 0;           ///< of the observable, in the unit
   double rms = 0, upper = 0;  ///< in the unit
   std::size_t rows = 0;
+  double counted = 0;  ///< rows that it counts as beside other channels: those of a field as one a step
 
   [[nodiscard]] Size of_range() const { return {rms / range, upper / range}; }
 };
@@ -32,18 +33,23 @@ struct ChannelSize {
 /// hardly moves is compared with what its observable does elsewhere. The largest |value| where nothing varies.
 std::vector<double> observable_ranges(const Layout& layout, const experiment::Experiment& experiment);
 
+/// The fitted rows of a channel; of a field the steps that have points.
+double counted_rows(const MeasuredChannel& view);
+
 /// Misfit beyond noise, of residuals r in units of σ: with x = |r|² and ν degrees of freedom,
 ///
 ///   m² = (x − ν)₊,  its upper bound the noncentrality λ of a χ²_ν(λ) that stays below x with 5 %.
 ///
-/// In units it is √(m²/x) of the root mean square of the errors e. Where neighbouring rows share noise, residuals are
-/// r = (e_k/σ_k − φ e_{k−1}/σ_{k−1})/√(1 − φ²). Runs and diagnoses measure by it.
+/// In units it is √(m²/x) of the root mean square of the errors e; of several channels the mean over rows, those of a
+/// field as one a step: points shall not hide what a force misses by. Where neighbouring rows share noise, residuals
+/// are r = (e_k/σ_k − φ e_{k−1}/σ_{k−1})/√(1 − φ²). Runs and diagnoses measure by it.
 class MisfitSize {
  public:
   struct Channel {
     std::string test, name, unit;
     double range;
     NoiseModel noise;  ///< of its rows, which stand behind those of the channel before, in the unit
+    double counted;    ///< rows that it counts as, see counted_rows()
   };
   explicit MisfitSize(std::vector<Channel> channels);
 

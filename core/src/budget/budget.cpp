@@ -39,22 +39,22 @@ bool is_settled(const diagnosis::Diagnosis& d, const discovery::Discovery* searc
   return d.explanation.claim.best && diagnosis::is_clean(d.explanation.p_after);
 }
 
-/// The model that terms can be added to; none: there is no single one, or a test is too costly.
-std::optional<discovery::Subject> subject_of(const diagnosis::Diagnosis& d, const plugins::Catalogue& catalogue) {
-  const diagnosis::Evidence& evidence = d.analysis.evidence;
-  if (d.request.model.empty() || evidence.base->models().count() != 1 || evidence.base->layout().has_costly_tests)
-    return std::nullopt;
+/// The model that terms can be added to; none: there is no single one.
+std::optional<discovery::Subject> subject_of(const diagnosis::Diagnosis& d, const diagnosis::Evidence& evidence,
+                                             const plugins::Catalogue& catalogue) {
+  if (d.request.model.empty() || evidence.base->models().count() != 1) return std::nullopt;
   if (!d.request.mechanisms.empty() || !catalogue.term_model()) return std::nullopt;
   return discovery::Subject{evidence.experiment, evidence.run, d.request.model, false, catalogue};
 }
 
-std::vector<discovery::KindPointer> kinds_for(const diagnosis::Diagnosis& d, const discovery::Subject& subject) {
-  const diagnosis::Evidence& evidence = d.analysis.evidence;
+/// `directions`: a search has found fibres to be better than all terms without directions.
+std::vector<discovery::KindPointer> kinds_for(const diagnosis::Diagnosis& d, const diagnosis::Evidence& evidence,
+                                              const discovery::Subject& subject, bool directions) {
   discovery::Request request;
   request.model = d.request.model;
   // Fibres of an isotropic base are looked for where the data show two directions, and nowhere else.
-  const bool directions = !diagnosis::is_isotropic(evidence.base->models().model(0)) ||
-                          !diagnosis::anisotropy_words(evidence, tolerance_of(d.request, evidence).share).empty();
+  directions = directions || !diagnosis::is_isotropic(evidence.base->models().model(0)) ||
+               !diagnosis::anisotropy_words(evidence, tolerance_of(d.request, evidence).share).empty();
   const discovery::Fitter fitter(subject, evidence);
   return discovery::scaled_kinds(
       fitter, discovery::kinds_of(request, discovery::reached_states(subject, evidence.fit.free), directions));
@@ -66,13 +66,14 @@ std::vector<std::string> ids_of(const std::vector<diagnosis::Addition>& addition
   return ids;
 }
 
-std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis, const plugins::Catalogue& catalogue) {
+std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis, const plugins::Catalogue& catalogue,
+                                            bool searched) {
   const diagnosis::Evidence& evidence = analysis.evidence;
   std::set<std::string> unordered;
   for (const assembly::TestPast& one : assembly::unknown_pasts(evidence.experiment, evidence.run, catalogue))
     if (one.past == data::Past::order_unknown) unordered.insert(one.test);
   std::vector<Budget::Untried> all;
-  if (evidence.base->layout().has_costly_tests) all.push_back({"terms of the energy", Budget::Lack::time});
+  if (evidence.base->layout().has_costly_tests && !searched) all.push_back({"terms of the energy", Budget::Lack::time});
   for (const diagnosis::Candidate& one : analysis.hypotheses.candidates) {
     if (!one.hypotheses.empty()) continue;
     const bool order = std::any_of(one.without_past.begin(), one.without_past.end(),
@@ -116,24 +117,36 @@ std::string lopsided_words(const diagnosis::Evidence& evidence, const std::vecto
 Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* search,
                  const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                  const diagnosis::Progress& progress) {
-  const diagnosis::Analysis& analysis = d.analysis;
-  const MisfitSize size(analysis.evidence);
+  const bool costly = d.analysis.evidence.base->layout().has_costly_tests;
+  // Where a test is a series of simulations, every further fit costs as much as the diagnosis. A search with a cheaper
+  // method has seen the same data; what comes out best is fitted with the tests themselves.
+  const bool stands_in = costly && search != nullptr && !search->stand_ins.empty();
+  const diagnosis::Analysis& analysis = stands_in ? search->analysis : d.analysis;
+  const MisfitSize size(analysis.evidence), own_size(d.analysis.evidence);
   Budget budget;
-  budget.tolerance = tolerance_of(d.request, analysis.evidence);
-  if (analysis.alarm.raised) budget.not_looked_for = not_looked_for(analysis, catalogue);
-  budget.base = size.of(analysis.evidence.fit);
-  budget.base_channels = budget.rest_channels = size.channels(analysis.evidence.fit);
-  budget.lopsided = lopsided_words(analysis.evidence, budget.base_channels);
-  const auto subject = subject_of(d, catalogue);
+  budget.tolerance = tolerance_of(d.request, d.analysis.evidence);
+  if (d.analysis.alarm.raised) budget.not_looked_for = not_looked_for(d.analysis, catalogue, stands_in);
+  budget.base = own_size.of(d.analysis.evidence.fit);
+  budget.base_channels = budget.rest_channels = own_size.channels(d.analysis.evidence.fit);
+  budget.lopsided = lopsided_words(d.analysis.evidence, budget.base_channels);
+  const experiment::Experiment measured = experiment::measured_only(experiment);
+  const diagnosis::Inquiry own_inquiry{measured, d.request, catalogue, progress};
+  const auto own_subject = subject_of(d, d.analysis.evidence, catalogue);
+  const auto subject = costly && !stands_in ? std::nullopt : subject_of(d, analysis.evidence, catalogue);
   const auto name_model = [&](std::vector<std::string> causes, const assembly::Assembly& extended,
                               const diagnosis::Fit& fit, const std::vector<diagnosis::Addition>& additions) {
-    if (!subject || causes.empty()) return;
+    if (!subject || causes.empty() || costly) return;
     budget.same_model = same_model(*subject, analysis.evidence, extended, fit, additions);
     if (!budget.same_model.empty()) budget.same_with = std::move(causes);
   };
   const auto finish = [&](std::optional<Mixture> fitted) {
+    if (fitted && stands_in) {
+      own_inquiry.report("the causes with the tests themselves", 0.99);
+      fitted = Mixer(own_inquiry, d.analysis, own_subject ? &*own_subject : nullptr).again(*fitted);
+      if (fitted) budget.steps.back().rest = own_size.of(fitted->fit);
+    }
     if (fitted) {
-      budget.rest_channels = size.channels(fitted->fit);
+      budget.rest_channels = own_size.channels(fitted->fit);
       std::vector<std::string> causes;
       for (const Member& member : fitted->members) causes.push_back(member.words());
       name_model(std::move(causes), fitted->extension->assembly(), fitted->fit, fitted->extension->additions());
@@ -143,24 +156,25 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
     return budget;
   };
   const auto& claim = d.explanation.claim;
-  if (!analysis.alarm.raised && claim.best)  // what restores stability
+  if (!d.analysis.alarm.raised && claim.best)  // what restores stability
     name_model(ids_of(claim.best->additions), claim.best->extension->assembly(), claim.best->fit,
                claim.best->additions);
-  // Where a test is a series of simulations, every further fit costs as much as the diagnosis.
-  if (!analysis.alarm.raised || analysis.evidence.base->layout().has_costly_tests) return finish(std::nullopt);
+  if (!d.analysis.alarm.raised || (costly && !stands_in)) return finish(std::nullopt);
 
-  const experiment::Experiment measured = experiment::measured_only(experiment);
-  const diagnosis::Inquiry inquiry{measured, d.request, catalogue, progress};
+  const experiment::Experiment cheaper = stands_in ? search->stand_ins.cheaper(measured) : measured;
+  const diagnosis::Inquiry inquiry{cheaper, d.request, catalogue, progress};
   const Mixer mixer(inquiry, analysis, subject ? &*subject : nullptr);
   const bool settled = is_settled(d, search);
   std::vector<discovery::KindPointer> kinds;
-  if (subject && !settled) kinds = kinds_for(d, *subject);
-  Field field{inquiry, analysis, mixer, size, leads_of(analysis, subject ? &*subject : nullptr, kinds), claim.rivals};
+  const bool fibres = search != nullptr && search->best && search->best->has_fibres();
+  if (subject && !settled) kinds = kinds_for(d, analysis.evidence, *subject, fibres);
+  Field field{inquiry, analysis, mixer, size, leads_of(analysis, subject ? &*subject : nullptr, kinds)};
+  if (!stands_in) field.known = claim.rivals;
   if (settled) {
     std::optional<Mixture> fitted;
     if (d.explanation.verdict == Verdict::discovered)
       fitted = mixer.mixture_of(*search->best);
-    else if (claim.best)
+    else if (claim.best && !stands_in)
       fitted = mixer.mixture_of(*claim.best);
     if (fitted) budget.steps = steps_of(field, *fitted);
     return finish(std::move(fitted));
@@ -182,7 +196,9 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
     if (worth > budget.of_file.worth) budget.of_file = {one.sentence, one.mend, share, worth};
   }
   if (subject && diagnosis::is_isotropic(analysis.evidence.base->models().model(0)))
-    budget.anisotropy = diagnosis::anisotropy_words(analysis.evidence, budget.tolerance.share);
+    budget.anisotropy = search != nullptr && !search->anisotropy.empty()
+                            ? search->anisotropy
+                            : diagnosis::anisotropy_words(analysis.evidence, budget.tolerance.share);
   Steps steps = steps_of(field, entrants, budget.tolerance.share);
   budget.steps = std::move(steps.all);
   return finish(std::move(steps.fitted));

@@ -63,13 +63,16 @@ Mixture Mixer::mixture_of(const diagnosis::Refit& refit) const {
 std::optional<Mixture> Mixer::mixture_of(const discovery::SetFit& found) const {
   std::vector<Member> members;
   for (const discovery::KindPointer& kind : found.kinds) members.push_back({{}, kind});
-  auto mixture = bound(std::move(members));
+  return again({std::move(members), nullptr, names_of(found.set->assembly()), found.fit, {}});
+}
+
+std::optional<Mixture> Mixer::again(const Mixture& other) const {
+  auto mixture = bound(other.members);
   if (!mixture) return std::nullopt;
-  const Mixture from{{}, nullptr, names_of(found.set->assembly()), found.fit, {}};
   const assembly::Assembly& assembly = mixture->extension->assembly();
   std::vector<double> start;
   for (const auto& parameter : assembly.layout().parameters) start.push_back(parameter.initial);
-  take_over(from, assembly, start);
+  take_over(other, assembly, start);
   fit(*mixture, start);
   if (mixture->fit.residuals.size() == 0) return std::nullopt;
   return mixture;

@@ -58,6 +58,8 @@ class Mixer {
   [[nodiscard]] Mixture mixture_of(const diagnosis::Refit& refit) const;
   /// The terms that a discovery found; none where they cannot be bound.
   [[nodiscard]] std::optional<Mixture> mixture_of(const discovery::SetFit& found) const;
+  /// The same members in the tests of this analysis, fitted from where those of another one ended.
+  [[nodiscard]] std::optional<Mixture> again(const Mixture& other) const;
   /// A mixture with one member more, which begins at what the score of its lead promises; none where it cannot be
   /// bound or evaluated.
   [[nodiscard]] std::optional<Mixture> grown(const Mixture& from, const Lead& lead) const;

@@ -236,7 +236,8 @@ void add_size(const experiment::Experiment& experiment, const assembly::Assembly
       residuals.push_back((e - phi * before) / std::sqrt(1 - phi * phi));
       before = e;
     }
-    channels.push_back({view.test, view.observable, view.unit, ranges[c], std::move(noise)});
+    channels.push_back(
+        {view.test, view.observable, view.unit, ranges[c], std::move(noise), assembly::counted_rows(view)});
   }
   if (channels.empty()) return;
   const assembly::MisfitSize size(std::move(channels));

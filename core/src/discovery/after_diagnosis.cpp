@@ -48,6 +48,7 @@ diagnosis::Diagnosis with_verdict_of(const Discovery& discovery, diagnosis::Diag
                  {diagnosis::ReasonKind::terms_discovered,
                   fmt::format("the energy lacks {}, |r|² {:.1f} → {:.1f}", lacking_words(discovery.judgement, kinds),
                               discovery.chi2_before, discovery.chi2_after)});
+  if (!discovery.anisotropy.empty()) reasons.push_back({diagnosis::ReasonKind::anisotropy_seen, discovery.anisotropy});
   return d;
 }
 

@@ -34,6 +34,11 @@ struct SpecimenSearch {
   std::string anisotropy = {};
 };
 
+/// Whether points of a field were measured: these strain along all directions at once.
+bool sees_directions(const diagnosis::Evidence& evidence) {
+  return std::ranges::any_of(evidence.curves, [](const diagnosis::Curve& curve) { return !curve.x.empty(); });
+}
+
 /// All sets of closed laws, and of curves where these say more.
 std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Request& request, const Fitter& fitter,
                                   const std::vector<KindPointer>& kinds, const std::vector<CommonFit>& before,
@@ -44,6 +49,7 @@ std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Req
   std::vector<SetFit> sets;
   Search how{request.term_limit(), request.most_parameters, &before};
   if (narrow) how.beam = narrow_beam, how.exchanged = narrow_exchange;
+  how.linear_first = narrow && sees_directions(analysis.evidence) && request.laws.empty();
   for (CommonFit& fit : search(one, how, [&](const CommonFit& set) { return is_clean(set.specimens.front()); }))
     sets.push_back(std::move(fit.specimens.front()));
   const std::vector<std::string>& laws = request.laws;
@@ -58,7 +64,22 @@ std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Req
   return sets;
 }
 
-/// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions.
+std::vector<CommonFit> as_common(const std::vector<SetFit>& sets) {
+  std::vector<CommonFit> all;
+  for (const SetFit& set : sets) all.push_back({set.kinds, {set}, set.log_evidence});
+  return all;
+}
+
+/// "in a field the terms without directions leave |r|² 4711, and fibres 815; the base has no directions"
+std::string directions_of_field(const SetFit& without, const SetFit& with) {
+  return fmt::format(
+      "two directions answer differently: the best terms without directions leave |r|² {:.0f} in the "
+      "field, and those with fibres {:.0f}; the base has no directions",
+      without.chi2(), with.chi2());
+}
+
+/// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions; in a
+/// field, where terms without directions are no match for them.
 /// `before`: sets of a search with another noise. `evaluations`: of a fit.
 SpecimenSearch search_one(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis,
                           const Request& request, bool has_directions, const std::vector<SetFit>& before, bool narrow,
@@ -71,23 +92,25 @@ SpecimenSearch search_one(const diagnosis::Inquiry& inquiry, const diagnosis::An
   const States states = reached_states(*subject, evidence.fit.free);
   Fitter fitter(*subject, evidence, evaluations);
   const bool volume = sees_volume(*subject, evidence);
-  std::vector<CommonFit> sets_before;
-  for (const SetFit& set : before) sets_before.push_back({set.kinds, {set}, set.log_evidence});
-  const auto over = [&](bool directions) {
+  const auto over = [&](bool directions, const std::vector<CommonFit>& sets_before) {
     const auto kinds = scaled_kinds(fitter, kinds_of(request, states, directions, volume));
     if (subject->changes_volume) fitter.begin_with(kinds);
     return searched_over(analysis, request, fitter, kinds, sets_before, narrow);
   };
   inquiry.report("terms of the energy", 0.4);
-  SpecimenSearch found{subject, over(has_directions)};
+  SpecimenSearch found{subject, over(has_directions, as_common(before))};
   const bool clean = !found.sets.empty() && diagnosis::is_clean(p_of_rest(analysis, found.sets.front().fit));
   if (!has_directions) found.anisotropy = diagnosis::anisotropy_words(evidence);
-  if (!found.anisotropy.empty() && !clean && request.invariants.empty()) {
+  const bool in_field = !has_directions && found.anisotropy.empty() && sees_directions(evidence);
+  if ((!found.anisotropy.empty() || in_field) && !clean && request.invariants.empty()) {
     inquiry.report("terms of fibres", 0.6);
-    std::vector<SetFit> with_fibres = over(true);
+    std::vector<SetFit> with_fibres = over(true, as_common(found.sets));
     if (!with_fibres.empty() &&
-        (found.sets.empty() || with_fibres.front().log_evidence > found.sets.front().log_evidence))
+        (found.sets.empty() || with_fibres.front().log_evidence > found.sets.front().log_evidence)) {
+      if (in_field && !found.sets.empty() && with_fibres.front().has_fibres())
+        found.anisotropy = directions_of_field(found.sets.front(), with_fibres.front());
       found.sets = std::move(with_fibres);
+    }
   }
   if (!found.sets.empty())
     simplest_first(found.sets, [&](const SetFit& fit) { return diagnosis::is_clean(p_of_rest(analysis, fit.fit)); });
@@ -136,6 +159,8 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
     if (!decided) searched = search_one(inquiry, analysis, request, has_directions, searched.sets, narrow);
   }
   Discovery found{request, std::move(analysis), searched.subject};
+  found.stand_ins = stand_ins;
+  found.anisotropy = searched.anisotropy;
   found.chi2_before = found.analysis.evidence.fit.chi2;
   found.chi2_after = found.analysis.evidence.fit.chi2;
   found.sets_tried = searched.sets.size();

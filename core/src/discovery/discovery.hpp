@@ -40,6 +40,8 @@ struct Discovery {
   std::string next = {};  ///< what to measure to tell the alternatives apart; empty where nothing does
   std::vector<diagnosis::Warning> warnings = {};
   std::size_t sets_tried = 0;
+  StandIns stand_ins = {};      ///< of the tests; the analysis, and all but the best set, are theirs
+  std::string anisotropy = {};  ///< what the data say of directions that the base lacks; empty: nothing
 };
 
 /// A whole discovery. Deterministic given the seed, for any number of threads. Throws InputError where data or names do

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +37,10 @@ struct Kind {
   [[nodiscard]] bool isotropic() const { return !invariant.starts_with("fibre"); }
   [[nodiscard]] bool of_volume() const { return invariant == "J"; }
   [[nodiscard]] bool is_product() const { return invariant.find('*') != std::string::npos; }
+  /// Whether it has no parameter but its amplitude and the direction of a family.
+  [[nodiscard]] bool is_linear() const {
+    return heights.empty() && std::ranges::all_of(shapes, [](const Shape& one) { return one.name == "theta"; });
+  }
   /// Whether a free curve may stand in its place.
   [[nodiscard]] bool may_be_a_curve() const { return invariant != "stretches" && !of_volume() && !is_product(); }
   /// Where its curve begins: J may fall.

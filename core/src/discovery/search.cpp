@@ -53,8 +53,8 @@ class Ledger {
   /// Every set grown by every kind that suits it, if it is new; those that could be fitted, likeliest first. What
   /// promises most is fitted first. What cannot come near the best of the smaller sets is not fitted, nor what can
   /// neither be among the `kept` best of these nor come near the best of them.
-  std::vector<CommonFit> grow(const std::vector<CommonFit>& from, std::size_t kept) {
-    std::vector<Job> jobs = jobs_of(from);
+  std::vector<CommonFit> grow(const std::vector<CommonFit>& from, std::size_t kept, bool every_law = true) {
+    std::vector<Job> jobs = jobs_of(from, every_law);
     const double smaller = all_.empty() ? -INFINITY : sorted().front().log_evidence;
     double best_so_far = smaller;
     std::map<Key, CommonFit> best;
@@ -208,11 +208,11 @@ class Ledger {
   }
 
   /// One for each new set, from the likeliest of the smaller ones, which come first; largest promise first.
-  std::vector<Job> jobs_of(const std::vector<CommonFit>& from) {
+  std::vector<Job> jobs_of(const std::vector<CommonFit>& from, bool every_law) {
     std::vector<Job> jobs;
     for (const CommonFit& smaller : from)
       for (const KindPointer& kind : fitter_.kinds()) {
-        if (!suits(smaller, *kind)) continue;
+        if (!suits(smaller, *kind) || !(every_law || kind->is_linear())) continue;
         Key key = key_with(smaller.kinds, *kind);
         if (tried_.insert(key).second) jobs.push_back({&smaller, &kind, std::move(key), 0});
       }
@@ -262,7 +262,7 @@ std::vector<CommonFit> search(const CommonFitter& fitter, const Search& request,
   if (first > 0) ledger.begin_with(fitter.root());
   for (std::size_t size = first + 1; size <= request.most_terms && !level.empty(); ++size) {
     const std::size_t most = size < first + pairs ? std::numeric_limits<std::size_t>::max() : request.beam;
-    std::vector<CommonFit> grown = ledger.grow(level, most);
+    std::vector<CommonFit> grown = ledger.grow(level, most, !request.linear_first);
     if (grown.empty()) break;
     const CommonFit best = ledger.sorted().front();
     // Nothing is left to explain, and one term more was not worth its price.

@@ -18,6 +18,9 @@ struct Search {
   const std::vector<CommonFit>* before = nullptr;
   std::size_t beam = 16;      ///< sets that larger ones grow from
   std::size_t exchanged = 6;  ///< sets in which terms make room for others
+  /// Sets grow by kinds that are linear in their parameters, which add up to any law nearly; the others take their
+  /// places in the best sets.
+  bool linear_first = false;
 };
 
 /// Sets of terms that were fitted, likeliest first. All single terms are tried, and all pairs that promise enough: the

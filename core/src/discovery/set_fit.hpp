@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -23,6 +24,10 @@ struct SetFit {
   double log_evidence = -INFINITY;  ///< with the prior of the set
 
   [[nodiscard]] double chi2() const { return fit.chi2; }
+  /// Whether a term acts along directions.
+  [[nodiscard]] bool has_fibres() const {
+    return std::ranges::any_of(kinds, [](const KindPointer& kind) { return !kind->isotropic(); });
+  }
   [[nodiscard]] std::size_t parameter_count() const { return set ? set->assembly().layout().parameters.size() : 0; }
 };
 

@@ -17,6 +17,7 @@ struct Curve {
   std::string test, channel;
   Eigen::Index first = 0, count = 0;
   std::vector<double> abscissa;   ///< of each row
+  std::vector<double> x, y;       ///< of each row of a field, the abscissa its step; else empty
   std::vector<std::size_t> rows;  ///< of the test
   NoiseSource noise;
 };

@@ -16,7 +16,7 @@ std::vector<assembly::MisfitSize::Channel> measured(const Evidence& evidence) {
       return one.test == curve.test && one.observable == curve.channel;
     });
     channels.push_back({curve.test, curve.channel, view->unit, ranges[static_cast<std::size_t>(view - views.begin())],
-                        row_noise(*view)});
+                        row_noise(*view), assembly::counted_rows(*view)});
   }
   return channels;
 }

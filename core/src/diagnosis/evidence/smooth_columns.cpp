@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/evidence/smooth_columns.hpp"
 
+#include "assembly/field_shapes.hpp"
+
 namespace tunica::diagnosis {
 namespace {
 
@@ -8,7 +10,10 @@ SmoothShapes shapes_of(const std::vector<Curve>& curves, Eigen::Index rows, unsi
   std::vector<assembly::CurveShapes> of_curves;
   Eigen::Index count = 0;
   for (const Curve& curve : curves)
-    count += of_curves.emplace_back(assembly::curve_shapes(curve.abscissa, most, each_branch)).columns.cols();
+    count += of_curves
+                 .emplace_back(curve.x.empty() ? assembly::curve_shapes(curve.abscissa, most, each_branch)
+                                               : assembly::field_shapes(curve.x, curve.y, curve.abscissa, most))
+                 .columns.cols();
   SmoothShapes shapes{Eigen::MatrixXd::Zero(rows, count), {}};
   Eigen::Index at = 0;
   for (std::size_t k = 0; k < curves.size(); ++k) {

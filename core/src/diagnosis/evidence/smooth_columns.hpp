@@ -10,7 +10,8 @@
 
 namespace tunica::diagnosis {
 
-/// The shapes of every curve (curve_shapes.hpp) up to degree 5, those of single branches too, in rows of all.
+/// The shapes of every curve (curve_shapes.hpp), or field (field_shapes.hpp), up to degree 5, those of single branches
+/// too, in rows of all.
 Eigen::MatrixXd smooth_columns(const std::vector<Curve>& curves, Eigen::Index rows);
 
 /// The same shapes, without those of single branches, up to any degree, and the degree of each.

@@ -112,6 +112,18 @@ std::vector<Place> single_places(const MechanismFactory& mechanism, const Experi
 }
 
 void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into) {
+  // Neighbours in a field are not those in the file, and a point of a thousand is no cause of what the others show.
+  const auto is_taken = [&whole](const assembly::MeasuredChannel& view, std::size_t row) {
+    return view.test == whole.addition.place.tests.front() && view.observable == whole.addition.place.channel &&
+           view.fitted[row] && !view.is_point(row);
+  };
+  const auto& channels = base.layout().channels;
+  if (std::ranges::none_of(channels, [&](const assembly::MeasuredChannel& view) {
+        for (std::size_t row = 0; row < view.count; ++row)
+          if (is_taken(view, row)) return true;
+        return false;
+      }))
+    return;
   const std::size_t rows = base.layout().residual_count, predictions = base.layout().prediction_count;
   std::vector<double> unit(rows, 0.0), map(predictions);
   // Row k of the whitening, read off its transpose.
@@ -123,10 +135,9 @@ void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vect
     for (std::size_t i = 0; i < predictions; ++i)
       if (map[i] != 0) columns[i].emplace_back(k, map[i]);
   }
-  for (const assembly::MeasuredChannel& view : base.layout().channels) {
-    if (view.test != whole.addition.place.tests.front() || view.observable != whole.addition.place.channel) continue;
+  for (const assembly::MeasuredChannel& view : channels) {
     for (std::size_t i = 0; i < view.count; ++i) {
-      if (!view.fitted[i]) continue;
+      if (!is_taken(view, i)) continue;
       Hypothesis one = whole;
       one.addition.place.row = i;
       one.addition.place.file_row = view.file_row(i);

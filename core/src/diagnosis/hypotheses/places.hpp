@@ -41,7 +41,8 @@ std::vector<MechanismFactory::Setting> settings_to_try(const MechanismFactory& m
 std::vector<Place> single_places(const MechanismFactory& mechanism, const experiment::Experiment& experiment,
                                  const experiment::RunEntry& run, const assembly::Assembly& base);
 
-/// A curve's mean shift restricted to single rows: one column a row, whitened like the residuals.
+/// A curve's mean shift restricted to single rows: one column a row, whitened like the residuals. Points of a field are
+/// none: bad ones are left out by their quality.
 void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into);
 
 }  // namespace tunica::diagnosis

@@ -60,10 +60,11 @@ Misfit described(const Evidence& evidence, const Curve& curve, const Eigen::Vect
   const auto view = std::find_if(channels.begin(), channels.end(), [&](const assembly::MeasuredChannel& one) {
     return one.test == curve.test && one.observable == curve.channel;
   });
-  if (view->is_field() && std::isfinite((*view->coordinate("x"))[curve.rows.front()]))
-    return described_field(evidence, curve, *view, p);
+  if (view->is_point(curve.rows.front())) return described_field(evidence, curve, *view, p);
   const auto [first, last] = region(window_means(shape));
-  const assembly::DrawnOver& over = view->drawn_over;
+  assembly::DrawnOver over = view->drawn_over;
+  // What was measured beside a field has no place in it.
+  if (view->is_field()) over = {view->abscissa_name, view->abscissa_unit, view->abscissa, {}};
   double from = INFINITY, to = -INFINITY;
   for (std::size_t k = first; k <= last; ++k) {
     from = std::min(from, over.values[curve.rows[k]]);

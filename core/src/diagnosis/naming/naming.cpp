@@ -16,7 +16,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr double most_of_it = 0.8;
+constexpr double most_of_it = 0.8, half_of_it = 0.5;
 
 Explanation unexplained(ReasonKind kind, std::string why) {
   Explanation found;
@@ -62,6 +62,7 @@ class Contest {
   [[nodiscard]] Choice winner() const {
     const Single& single = singles_.front();
     const double p_one = p_of_remainder(analysis_, *single.best);
+    if (!is_clean(p_one) && !is_worth_company(single)) return one(p_one, false);
     // Where one may be enough, two must be worth their price.
     const double floor = is_clean(p_one) ? single.log_weight - log_odds_of_pair(singles_.size()) : -INFINITY;
     std::vector<Group> groups = fit_pairs(inquiry_, analysis_, singles_, floor);
@@ -82,6 +83,14 @@ class Contest {
   }
   [[nodiscard]] Choice several(const std::vector<Group>& groups, double p_after) const {
     return {claim_several(inquiry_, analysis_, groups, singles_), p_after, is_clean(p_after)};
+  }
+
+  /// Where a simulation is costly, several are fitted together beside one that takes half of the misfit. The budget
+  /// asks of the others with a cheaper method.
+  [[nodiscard]] bool is_worth_company(const Single& single) const {
+    const Fit& fit = analysis_.evidence.fit;
+    return !analysis_.evidence.base->layout().has_costly_tests ||
+           fit.chi2 - single.best->fit.chi2 > half_of_it * (fit.chi2 - static_cast<double>(fit.residuals.size()));
   }
 
   /// Where nothing explains it all. What one mechanism does to most of it is worth more than what three do to a little
