@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "posterior/difference_move.hpp"
 #include "posterior/tangent_move.hpp"
 
 namespace tunica::posterior {
@@ -81,14 +82,17 @@ Chain chain(const Question& question, const Centre& from, std::size_t draws, std
   Point here = start_of(target, from.point, random);
   constexpr double first_size = 0.7, largest_size = 0.95, wanted_acceptance = 0.5;
   double size = first_size;
+  std::vector<Vector> past;
   for (std::size_t k = 1; k <= warm_up && !is_over(); ++k) {
     const double acceptance = make_tangent_move(target, here, size, random);
     size *= std::exp(std::pow(static_cast<double>(k), -0.6) * (acceptance - wanted_acceptance));
     size = std::min(size, largest_size);
+    if (2 * k > warm_up) past.push_back(here.z);
   }
   made.size = size;
   for (std::size_t k = 0; k < draws && !is_over(); ++k) {
     made.acceptance.push_back(make_tangent_move(target, here, size, random));
+    for (int j = 0; j < difference_moves; ++j) make_difference_move(target, here, past, random);
     const std::vector<double> values = target.free(here.z);
     made.free.insert(made.free.end(), values.begin(), values.end());
     made.log_density.push_back(here.log_density);

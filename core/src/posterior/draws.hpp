@@ -26,8 +26,8 @@ struct Chain {
   std::size_t parameters = 0;
   std::vector<double> free;  ///< draw after draw, base units
   std::vector<double> log_density;
-  std::vector<double> acceptance;             ///< probability with which the move to a draw was taken
-  double size = 0;                            ///< of its moves
+  std::vector<double> acceptance;             ///< probability with which the tangent move to a draw was taken
+  double size = 0;                            ///< of its tangent moves
   std::size_t evaluations = 0, failures = 0;  ///< simulations with derivatives, warm-up included; those that failed
 
   [[nodiscard]] std::size_t draws() const { return log_density.size(); }
@@ -38,11 +38,14 @@ struct Chain {
 
 /// Draws of a chain before its first one that counts.
 constexpr std::size_t warm_up = 500;
+/// Of every draw, after its tangent move.
+constexpr int difference_moves = 4;
 
 /// The chain of this key. It begins at a draw of the Laplace approximation, and goes on by tangent moves
 /// (tangent_move.hpp). During the warm-up their size follows the acceptance, ln β += k^{−0.6} (acceptance − ½), up to
 /// 0.95 (H. Robbins, S. Monro, Ann. Math. Stat. 22:400, 1951; C. Andrieu, J. Thoms, Stat. Comput. 18:343, 2008); then
-/// it stays.
+/// it stays. To every draw then lead a tangent move and `difference_moves` along differences of the second half of the
+/// warm-up (difference_move.hpp).
 ///
 /// The same bits whatever else runs. With fewer draws than asked for once `is_over` returns true.
 Chain chain(const Question& question, const Centre& from, std::size_t draws, std::uint64_t key,
