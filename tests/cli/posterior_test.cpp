@@ -2,10 +2,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <sstream>
+#include <stdexcept>
 #include <thread>
 
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <zlib.h>
 
 #include "cli/bench.hpp"
 
@@ -60,17 +64,117 @@ TEST(PosteriorOfARun, AllowsForASmoothMisfit) {
   EXPECT_EQ(nlohmann::json::parse(bench.text("out/input.json"))["analysis"]["posterior"]["discrepancy"], true);
 }
 
-// What a run leaves that is killed while its chains are drawn: they are drawn anew, to the same bits.
-TEST(PosteriorOfARun, IsDrawnAnewWhereItWasInterrupted) {
+namespace {
+
+std::vector<std::string> rows_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// A run with 400 draws, and what a killed one leaves of it: no result, no draws, but their steps.
+struct KilledRun {
+  KilledRun() {
+    bench.experiment["analysis"]["posterior"]["draws"] = 400;
+    if (bench.tunica({"run", "experiment.json", "-o", "out"}).code != 0) throw std::runtime_error("no run");
+    file = "out/" + bench.result("out")["runs"][0]["best"]["posterior"]["file"].get<std::string>();
+    steps = "out/posterior_steps_" + file.substr(14, file.size() - 19) + ".csv";
+    draws = bench.text(file);
+    result = trial::without_times(bench.result("out"));
+    std::filesystem::remove(bench.path("out/result.json"));
+    std::filesystem::remove(bench.path(file));
+  }
+  [[nodiscard]] trial::Ended resume() { return bench.tunica({"run", "experiment.json", "-o", "out", "--resume"}); }
+  /// The cell `column` of a line gets another value, and the line the checksum of what it then says.
+  void change(std::size_t line, std::size_t column, const std::string& value) {
+    auto lines = rows_of(bench.text(steps));
+    std::vector<std::string> cells;
+    std::istringstream stream(lines.at(line));
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    cells.at(column) = value;
+    std::string changed;
+    for (std::size_t k = 0; k + 1 < cells.size(); ++k) changed += (k > 0 ? "," : "") + cells[k];
+    const auto crc = ::crc32_z(0, reinterpret_cast<const Bytef*>(changed.data()), changed.size());
+    lines[line] = fmt::format("{},{:08x}", changed, crc);
+    bench.folder.write(steps, fmt::format("{}\n", fmt::join(lines, "\n")));
+  }
+
   trial::Bench bench;
-  bench.experiment["analysis"]["posterior"]["draws"] = 400;
-  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
-  const std::string file = "out/" + bench.result("out")["runs"][0]["best"]["posterior"]["file"].get<std::string>();
-  const auto draws = bench.text(file);
-  std::filesystem::remove(bench.path("out/result.json"));
-  std::filesystem::remove(bench.path(file));
-  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--resume"}).code, 0);
-  EXPECT_EQ(bench.text(file), draws);
+  std::string file, steps, draws;
+  nlohmann::json result;
+};
+
+}  // namespace
+
+TEST(PosteriorOfARun, GoesOnFromItsStepsWhereverTheirLastLineWasCut) {
+  KilledRun run;
+  const std::string whole = run.bench.text(run.steps);
+  EXPECT_EQ(rows_of(whole).size(), 2u + 4 * 600);
+  for (const double share : {0.0, 0.1, 0.6, 0.999}) {
+    run.bench.folder.write(run.steps,
+                           whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
+    ASSERT_EQ(run.resume().code, 0);
+    EXPECT_TRUE(run.bench.text(run.file) == run.draws) << share;
+    EXPECT_EQ(trial::without_times(run.bench.result("out")), run.result) << share;
+    EXPECT_EQ(rows_of(run.bench.text(run.steps)).size(), 2u + 4 * 600) << share;
+  }
+}
+
+// A draw that was kept is taken as it was: here with an acceptance that no move has.
+TEST(PosteriorOfARun, DoesNotDrawAgainWhatIsKept) {
+  KilledRun run;
+  const auto lines = rows_of(run.bench.text(run.steps));
+  const auto first =
+      std::find_if(lines.begin(), lines.end(), [](const auto& line) { return line.starts_with("1,501,"); });
+  ASSERT_NE(first, lines.end());
+  run.change(static_cast<std::size_t>(first - lines.begin()), 3, "0.123");
+  ASSERT_EQ(run.resume().code, 0);
+  EXPECT_EQ(nlohmann::json::parse(run.bench.text(run.file))["sample_stats"]["acceptance_rate"][0][0], 0.123);
+}
+
+TEST(PosteriorOfARun, DrawsAgainAfterADamagedStep) {
+  KilledRun run;
+  std::string damaged = run.bench.text(run.steps);
+  char& digit = damaged[damaged.find("\n1,550,") + 9];
+  digit = digit == '7' ? '8' : '7';
+  run.bench.folder.write(run.steps, damaged);
+  ASSERT_EQ(run.resume().code, 0);
+  EXPECT_TRUE(run.bench.text(run.file) == run.draws);
+  EXPECT_EQ(trial::without_times(run.bench.result("out")), run.result);
+}
+
+// A density that the point no longer has says that another material or other data were drawn from.
+TEST(PosteriorOfARun, DrawsAgainWhereTheDensityIsAnotherOne) {
+  KilledRun run;
+  const auto lines = rows_of(run.bench.text(run.steps));
+  const auto last =
+      std::find_if(lines.begin(), lines.end(), [](const auto& line) { return line.starts_with("2,600,"); });
+  ASSERT_NE(last, lines.end());
+  run.change(static_cast<std::size_t>(last - lines.begin()), 2, "-1.5");
+  ASSERT_EQ(run.resume().code, 0);
+  EXPECT_TRUE(run.bench.text(run.file) == run.draws);
+}
+
+TEST(PosteriorOfARun, DrawsMoreOfAFinishedRunBehindWhatItHas) {
+  KilledRun run;
+  const std::string before = run.bench.text(run.steps);
+  ASSERT_EQ(run.bench.tunica({"run", "experiment.json", "-o", "out", "--resume", "--posterior=800"}).code, 0);
+  EXPECT_TRUE(run.bench.text(run.steps).starts_with(before));
+  const auto few = nlohmann::json::parse(run.draws)["posterior"]["mu"];
+  const auto many = nlohmann::json::parse(run.bench.text(run.file))["posterior"]["mu"];
+  ASSERT_EQ(many[3].size(), 200u);
+  for (std::size_t k = 0; k < 100; ++k) EXPECT_EQ(many[3][k], few[3][k]);
+  ASSERT_EQ(run.bench.tunica({"run", "experiment.json", "-o", "anew", "--posterior=800"}).code, 0);
+  EXPECT_TRUE(run.bench.text("anew/" + run.file.substr(4)) == run.bench.text(run.file));
+}
+
+// Draws of another seed or with a discrepancy are others.
+TEST(PosteriorOfARun, KeepsNoStepsOfAnotherQuestion) {
+  KilledRun run;
+  ASSERT_EQ(run.bench.tunica({"run", "experiment.json", "-o", "out", "--resume", "--discrepancy"}).code, 0);
+  ASSERT_EQ(run.bench.tunica({"run", "experiment.json", "-o", "anew", "--discrepancy"}).code, 0);
+  EXPECT_TRUE(run.bench.text("anew/" + run.file.substr(4)) == run.bench.text(run.file));
 }
 
 // A process that is killed at some moment while chains are drawn, twice: the draws are those of a run that never was.

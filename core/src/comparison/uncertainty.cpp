@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "comparison/draw_journal.hpp"
 #include "comparison/fit_table.hpp"
 #include "comparison/posterior_output.hpp"
 #include "comparison/uncertainty_tables.hpp"
@@ -173,8 +174,10 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
     }
     if (analysis.posterior_draws > 0) {
       if (told) told("posterior of " + own.label);
-      const auto made =
-          posterior::sample(assembly, best, analysis.posterior_draws, seed, interrupted, {}, analysis.discrepancy);
+      DrawJournal journal(directory / fmt::format("posterior_steps_{}.csv", file_stem(own.label)));
+      const auto made = posterior::sample(assembly, best, analysis.posterior_draws, seed, interrupted, {},
+                                          analysis.discrepancy, &journal);
+      journal.finish();
       if (!made.status.ok()) {
         own.uncertainty.push_back("no posterior: " + made.status.reason());
       } else if (!made.complete) {

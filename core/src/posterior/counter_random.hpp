@@ -29,6 +29,8 @@ class CounterRandom {
     for (double& number : numbers) number = normal();
     return numbers;
   }
+  /// The key whose numbers are those that come next.
+  [[nodiscard]] std::uint64_t state() const { return state_; }
 
  private:
   std::uint64_t state_;

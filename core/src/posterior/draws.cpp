@@ -25,6 +25,10 @@ Point start_of(Target& target, const Point& centre, CounterRandom& random) {
   return centre;
 }
 
+Vector vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
 /// Newton's method with −∂² ln p ≈ (∂H/∂z)ᵀ ∂H/∂z, positive definite.
 void climb(Target& target, Point& point) {
   constexpr int most_steps = 100;
@@ -74,28 +78,57 @@ Centre centre(const Question& question, std::span<const double> best) {
 }
 
 Chain chain(const Question& question, const Centre& from, std::size_t draws, std::uint64_t key,
-            const std::function<bool()>& is_over) {
+            const std::function<bool()>& is_over, const std::vector<Step>& known,
+            const std::function<void(std::size_t, const Step&)>& keep) {
+  constexpr double first_size = 0.7, largest_size = 0.95, wanted_acceptance = 0.5;
   Target target(question, from.metric);
   CounterRandom random(key);
   Chain made;
   made.parameters = question.assembly.layout().parameters.size();
-  Point here = start_of(target, from.point, random);
-  constexpr double first_size = 0.7, largest_size = 0.95, wanted_acceptance = 0.5;
-  double size = first_size;
+  made.size = first_size;
   std::vector<Vector> past;
-  for (std::size_t k = 1; k <= warm_up && !is_over(); ++k) {
-    const double acceptance = make_tangent_move(target, here, size, random);
-    size *= std::exp(std::pow(static_cast<double>(k), -0.6) * (acceptance - wanted_acceptance));
-    size = std::min(size, largest_size);
-    if (2 * k > warm_up) past.push_back(here.z);
-  }
-  made.size = size;
-  for (std::size_t k = 0; k < draws && !is_over(); ++k) {
-    made.acceptance.push_back(make_tangent_move(target, here, size, random));
-    for (int j = 0; j < difference_moves; ++j) make_difference_move(target, here, past, random);
-    const std::vector<double> values = target.free(here.z);
+  const auto take = [&](std::size_t k, const Vector& z, double log_density, double acceptance) {
+    if (k < warm_up) {
+      if (2 * k >= warm_up) past.push_back(z);
+      return;
+    }
+    made.acceptance.push_back(acceptance);
+    const std::vector<double> values = target.free(z);
     made.free.insert(made.free.end(), values.begin(), values.end());
-    made.log_density.push_back(here.log_density);
+    made.log_density.push_back(log_density);
+  };
+  const std::size_t all = warm_up + draws;
+  std::size_t k = std::min(known.size(), all);
+  Point here;
+  if (k > 0 && target.evaluate(vector_of(known[k - 1].z), here) && here.log_density == known[k - 1].log_density) {
+    for (std::size_t i = 0; i < k; ++i) take(i, vector_of(known[i].z), known[i].log_density, known[i].acceptance);
+    const Step& last = known[k - 1];
+    random = CounterRandom(last.random);
+    made.size = last.size;
+    target.evaluations = last.evaluations;
+    target.failures = last.failures;
+  } else {
+    k = 0;
+    target.evaluations = target.failures = 0;
+    here = start_of(target, from.point, random);
+  }
+  for (; k < all && !is_over(); ++k) {
+    const double acceptance = make_tangent_move(target, here, made.size, random);
+    if (k < warm_up) {
+      made.size *= std::exp(std::pow(static_cast<double>(k + 1), -0.6) * (acceptance - wanted_acceptance));
+      made.size = std::min(made.size, largest_size);
+    } else {
+      for (int j = 0; j < difference_moves; ++j) make_difference_move(target, here, past, random);
+    }
+    take(k, here.z, here.log_density, acceptance);
+    if (keep)
+      keep(k, {{here.z.begin(), here.z.end()},
+               here.log_density,
+               acceptance,
+               made.size,
+               random.state(),
+               target.evaluations,
+               target.failures});
   }
   made.evaluations = target.evaluations;
   made.failures = target.failures;

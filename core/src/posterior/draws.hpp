@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "posterior/memory.hpp"
 #include "posterior/target.hpp"
 
 namespace tunica::posterior {
@@ -47,8 +48,11 @@ constexpr int difference_moves = 4;
 /// it stays. To every draw then lead a tangent move and `difference_moves` along differences of the second half of the
 /// warm-up (difference_move.hpp).
 ///
-/// The same bits whatever else runs. With fewer draws than asked for once `is_over` returns true.
+/// The same bits whatever else runs. With fewer draws than asked for once `is_over` returns true. `known` steps of the
+/// same chain are taken as they are, and `keep` gets each one that is new, with its index. Where the density at the
+/// last known one is not what it was, to the last bit, all of them are made again.
 Chain chain(const Question& question, const Centre& from, std::size_t draws, std::uint64_t key,
-            const std::function<bool()>& is_over);
+            const std::function<bool()>& is_over, const std::vector<Step>& known = {},
+            const std::function<void(std::size_t, const Step&)>& keep = {});
 
 }  // namespace tunica::posterior

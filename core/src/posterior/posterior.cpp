@@ -36,6 +36,15 @@ Marginal marginal(const std::vector<Chain>& chains, std::size_t parameter) {
   return found;
 }
 
+/// What the steps of all chains depend on, beside the code. The centre stands for data, model and bounds.
+std::string name_of(const Question& question, const Centre& from, std::span<const double> best, std::uint64_t seed) {
+  std::string name = fmt::format("seed {}, discrepancy {}, best", seed, question.discrepancy.has_value());
+  for (const double value : best) name += fmt::format(" {}", value);
+  name += fmt::format(", log density {}, centre", from.point.log_density);
+  for (const double value : from.point.z) name += fmt::format(" {}", value);
+  return name;
+}
+
 }  // namespace
 
 double Posterior::r_hat() const {
@@ -52,7 +61,7 @@ double Posterior::effective_size() const {
 
 Posterior sample(const assembly::Assembly& assembly, std::span<const double> best, std::size_t draws,
                  std::uint64_t seed, const std::function<bool()>& interrupted, std::span<const double> measured,
-                 bool discrepancy) {
+                 bool discrepancy, Memory* memory) {
   Posterior found;
   if (best.empty()) {
     found.status = Status::failed("no parameter is free");
@@ -70,11 +79,16 @@ Posterior sample(const assembly::Assembly& assembly, std::span<const double> bes
   if (!found.status.ok()) return found;
   found.chains.resize(chain_count);
   const std::size_t each = (draws + chain_count - 1) / chain_count;
+  std::vector<std::vector<Step>> known(chain_count);
+  if (memory) known = memory->recall(name_of(*question, from, best, seed), chain_count, best.size());
   tbb::parallel_for(std::size_t{0}, chain_count, [&](std::size_t k) {
     const plugins::Call part{nullptr, "analysis", nullptr, nullptr, deadline};
     const plugins::CallScope scope(part);
-    found.chains[k] =
-        chain(*question, from, each, derive_seed(seed, fmt::format("posterior chain {}", k + 1)), is_over);
+    const auto keep = [&](std::size_t index, const Step& step) {
+      if (memory) memory->keep(k, index, step);
+    };
+    found.chains[k] = chain(*question, from, each, derive_seed(seed, fmt::format("posterior chain {}", k + 1)), is_over,
+                            known[k], keep);
   });
   found.evaluations = from.evaluations;
   for (const Chain& chain : found.chains) {

@@ -41,9 +41,10 @@ struct Posterior {
 };
 
 /// `draws` of all four chains together, rounded up to a multiple of four. A chain depends on seed and number alone, so
-/// that the outcome is the same for any number of threads. `measured` and `discrepancy` as in question_at().
+/// that the outcome is the same for any number of threads. `measured` and `discrepancy` as in question_at(). Steps that
+/// `memory` has of the same question are not made again, whatever number of draws they were made for.
 Posterior sample(const assembly::Assembly& assembly, std::span<const double> best, std::size_t draws,
                  std::uint64_t seed, const std::function<bool()>& interrupted = {},
-                 std::span<const double> measured = {}, bool discrepancy = false);
+                 std::span<const double> measured = {}, bool discrepancy = false, Memory* memory = nullptr);
 
 }  // namespace tunica::posterior
