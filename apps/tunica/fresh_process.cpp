@@ -14,10 +14,12 @@
 
 namespace tunica::app {
 
-Answer ask_fresh_process(const std::vector<std::string>& arguments) {
-  // The kernel's link to our own image: right even when the file was moved or replaced meanwhile.
-  const std::string executable = "/proc/self/exe";
-  std::vector<std::string> words{"tunica"};
+namespace {
+
+/// Starts a program under a name, whose standard error is ours or nowhere, and waits for it.
+Answer ask(const std::string& executable, const std::string& name, const std::vector<std::string>& arguments,
+           bool quiet) {
+  std::vector<std::string> words{name};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (auto& word : words) argv.push_back(word.data());
@@ -28,8 +30,9 @@ Answer ask_fresh_process(const std::vector<std::string>& arguments) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, pipe[1], STDOUT_FILENO);
+  if (quiet) ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t child = -1;
-  const int error = ::posix_spawn(&child, executable.c_str(), &actions, nullptr, argv.data(), environ);
+  const int error = ::posix_spawnp(&child, executable.c_str(), &actions, nullptr, argv.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(pipe[1]);
   Answer answer;
@@ -60,6 +63,17 @@ Answer ask_fresh_process(const std::vector<std::string>& arguments) {
   if (WIFEXITED(status) && WEXITSTATUS(status) > 1)  // 1: it answered, with bad news
     answer.problem = fmt::format("it ended with code {}", WEXITSTATUS(status));
   return answer;
+}
+
+}  // namespace
+
+Answer ask_fresh_process(const std::vector<std::string>& arguments) {
+  // The kernel's link to our own image: right even when the file was moved or replaced meanwhile.
+  return ask("/proc/self/exe", "tunica", arguments, false);
+}
+
+Answer ask_program(const std::string& program, const std::vector<std::string>& arguments) {
+  return ask(program, program, arguments, true);
 }
 
 }  // namespace tunica::app

@@ -17,4 +17,7 @@ struct Answer {
 /// error ours.
 Answer ask_fresh_process(const std::vector<std::string>& arguments);
 
+/// The same with another program, found on PATH. Its standard error goes nowhere.
+Answer ask_program(const std::string& program, const std::vector<std::string>& arguments);
+
 }  // namespace tunica::app

@@ -11,6 +11,7 @@
 #include "answer.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
+#include "print_page.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
 
@@ -20,11 +21,28 @@ namespace {
 
 struct ReportOptions {
   std::vector<std::string> folders;
-  std::string file;
+  std::string file, printed;
 };
+
+/// The folder that a file goes to.
+std::filesystem::path folder_of(const char* option, const std::filesystem::path& file, const char* usual) {
+  if (std::filesystem::is_directory(file))
+    throw InputError(
+        fmt::format("{} {}: is a folder; name a file, for example {}", option, file.string(), (file / usual).string()));
+  auto beside = std::filesystem::absolute(file).parent_path();
+  if (!std::filesystem::is_directory(beside))
+    throw InputError(fmt::format("{} {}: no folder {}; make it first", option, file.string(), beside.string()));
+  return beside;
+}
 
 int make_report(const ReportOptions& options) {
   const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
+  if (!options.printed.empty()) {
+    static_cast<void>(folder_of("--pdf", options.printed, "report.pdf"));
+    print_report(folders, options.printed);
+    answer("{}\n", options.printed);
+    if (options.file.empty()) return done;
+  }
   if (folders.size() == 1 && options.file.empty()) {
     answer("{}\n", report::write_report(folders.front()).string());
     return done;
@@ -32,12 +50,7 @@ int make_report(const ReportOptions& options) {
   if (options.file.empty())
     throw InputError("several folders make one report: say with -o where it goes, for example -o comparison.html");
   const std::filesystem::path file = options.file;
-  if (std::filesystem::is_directory(file))
-    throw InputError(
-        fmt::format("-o {}: is a folder; name a file, for example {}", file.string(), (file / "report.html").string()));
-  const auto beside = std::filesystem::absolute(file).parent_path();
-  if (!std::filesystem::is_directory(beside))
-    throw InputError(fmt::format("-o {}: no folder {}; make it first", file.string(), beside.string()));
+  const auto beside = folder_of("-o", file, "report.html");
   execution::write_atomically(file, report::report(folders, beside));
   answer("{}\n", file.string());
   return done;
@@ -53,10 +66,13 @@ void add_report(CLI::App& app, GlobalOptions&, Action& action) {
       ->type_name("DIR");
   verb->add_option("-o,--output", options->file, "The file to write (default for one folder: DIR/report.html)")
       ->type_name("FILE");
+  verb->add_option("--pdf", options->printed, "Print it into this file, by Chromium, Chrome or Edge")
+      ->type_name("FILE");
   verb->footer(
       "Examples:\n"
       "  tunica report results/a\n"
-      "  tunica report results/a results/b -o comparison.html\n\n"
+      "  tunica report results/a results/b -o comparison.html\n"
+      "  tunica report results/a --pdf report.pdf\n\n"
       "The file is self-contained: it opens offline, in any browser.");
   verb->callback([&action, options] { action = [options] { return make_report(*options); }; });
 }

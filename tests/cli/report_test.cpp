@@ -32,6 +32,43 @@ TEST(ReportVerb, PutsFoldersSideBySide) {
   EXPECT_THAT(bench.text("both.html"), HasSubstr("href=\"a/fit_circ.csv\""));
 }
 
+// The programs that print are looked for on PATH: here a script that says what it was asked for.
+TEST(ReportVerb, PrintsThePageByABrowser) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  const auto with = [&bench](const std::string& browser, const std::string& path) {
+    std::vector<std::string> words = trial::tunica_command({"report", "out", "--pdf", "out.pdf"});
+    words.insert(words.begin(), {"/usr/bin/env", "PATH=" + path, "TUNICA_BROWSER=" + browser});
+    return trial::Process(words, bench.folder.path()).wait();
+  };
+  const auto script = [&bench](const std::string& name, const std::string& text) {
+    bench.folder.write(name, "#!/bin/sh\n" + text);
+    std::filesystem::permissions(bench.path(name), std::filesystem::perms::owner_all);
+    return bench.path(name).string();
+  };
+  std::filesystem::create_directory(bench.path("bin"));
+  const std::string bin = bench.path("bin").string();
+  const auto none = with("", bin);
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("install one (Debian: chromium)"));
+  const std::string prints =
+      "for word; do case $word in --print-to-pdf=*) to=${word#*=};; file://*) page=${word#file://};; esac; done\n"
+      "echo '%PDF-1.4' > $to; cat $page >> $to; echo noise >&2\n";
+  script("bin/chromium", prints);
+  const auto found = with("", bin + ":/usr/bin:/bin");
+  EXPECT_EQ(found.code, 0) << found.err;
+  EXPECT_EQ(found.out, "out.pdf\n");
+  EXPECT_EQ(found.err, "");
+  EXPECT_EQ(bench.text("out.pdf").substr(0, 9), "%PDF-1.4\n");
+  EXPECT_NE(bench.text("out.pdf").find("How well"), std::string::npos);
+  const auto fails = with(script("fails", "exit 3\n"), bin);
+  EXPECT_EQ(fails.code, 2);
+  EXPECT_THAT(fails.err, HasSubstr("has printed no PDF: it ended with code 3"));
+  const auto lies = with(script("lies", "exit 0\n"), bin);
+  EXPECT_THAT(lies.err, HasSubstr("has printed no PDF; name another browser"));
+  EXPECT_THAT(bench.tunica({"report", "out", "--pdf", "no/where.pdf"}).err, HasSubstr("make it first"));
+}
+
 TEST(ReportVerb, SaysWhatIsWrongWithItsArguments) {
   const trial::Bench bench;
   const auto absent = bench.tunica({"report", "nowhere"});
