@@ -64,6 +64,18 @@ TEST(PosteriorOfARun, AllowsForASmoothMisfit) {
   EXPECT_EQ(nlohmann::json::parse(bench.text("out/input.json"))["analysis"]["posterior"]["discrepancy"], true);
 }
 
+TEST(PosteriorOfARun, WarnsWhereADiscrepancyTakesTheNoiseForKnown) {
+  trial::Bench bench;
+  bench.experiment["runs"] = {{{"model", "neo"}, {"optimizer", "lm"}}};
+  const auto warned = [&bench](const std::string& output) {
+    EXPECT_EQ(bench.tunica({"run", "experiment.json", "-o", output, "--discrepancy", "--posterior=400"}).code, 0);
+    return bench.result(output)["warning_details"].dump().find("posterior_noise_assumed") != std::string::npos;
+  };
+  EXPECT_FALSE(warned("all"));
+  for (auto& test : bench.experiment["tests"]) test["hold_out"] = "6:20";
+  EXPECT_TRUE(warned("few"));
+}
+
 namespace {
 
 std::vector<std::string> rows_of(const std::string& text) {

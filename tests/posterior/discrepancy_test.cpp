@@ -193,3 +193,20 @@ TEST(Discrepancy, FindsTheNoiseBesideIt) {
     EXPECT_GT(found.size, 0) << "the bend is five times the noise";
   }
 }
+
+// Of a curve of 60 rows the first eight are fitted: shapes to degree 14 and two parameters follow them, and leave none
+// to estimate the noise from.
+TEST(Discrepancy, SaysWhereItTakesTheNoiseForKnown) {
+  const auto assumed = [](std::size_t fitted, bool stated) {
+    trial::Line line(60);
+    if (stated) line.experiment.tests.front().data.noise = {{"y", {noise}}};
+    line.experiment.tests.front().hold_out.rows = {static_cast<std::ptrdiff_t>(fitted), {}, 1};
+    const auto assembly = line.assemble();
+    const auto question = question_of(assembly);
+    EXPECT_EQ(question->factor_known, stated || fitted == 8);
+    return question->discrepancy->factor_assumed();
+  };
+  EXPECT_TRUE(assumed(8, false));
+  EXPECT_FALSE(assumed(8, true));
+  EXPECT_FALSE(assumed(50, false));
+}

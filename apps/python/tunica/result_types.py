@@ -187,7 +187,7 @@ WarningKind = Literal["misfit_out_of_scale", "no_misfit", "noise_contradicted", 
     "differenced_derivatives", "equal_realisations", "plugin_refused", "order_assumed", "record_broken",
     "record_softening", "record_jump", "record_repeated", "record_coarse", "record_sign", "record_time", "record_short",
     "record_percent", "record_size", "record_angle", "record_noise", "header_measure", "header_strain",
-    "posterior_not_converged", "posterior_disagrees", "set_up"]
+    "posterior_not_converged", "posterior_disagrees", "posterior_noise_assumed", "set_up"]
 
 
 class Result(TypedDict):

@@ -139,6 +139,13 @@ void add_posterior(const assembly::Assembly& assembly, const Posterior& made, Ru
         "no larger misfit than that is allowed for: the model misses the data in kind, and bands of measurements may "
         "be "
         "too narrow. Take another model");
+  if (made.factor_assumed)
+    warnings.push_back({WarningKind::posterior_noise_assumed,
+                        "the posterior takes the noise for known though no test states it all: the shapes of a misfit "
+                        "and the parameters follow every fitted row, and leave nothing to estimate it from. State "
+                        "\"noise\", fit more rows, or leave out --discrepancy",
+                        summary.label,
+                        {}});
   if (!made.factor_known)
     say(summary,
         "the posterior takes one common factor of all noise for unknown, as the linearised intervals do: "

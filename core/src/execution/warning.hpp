@@ -66,10 +66,11 @@ enum class WarningKind {
   header_strain,
   posterior_not_converged,
   posterior_disagrees,
+  posterior_noise_assumed,
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 55> warning_codes{
+inline constexpr text::Codes<WarningKind, 56> warning_codes{
     {{WarningKind::misfit_out_of_scale, "misfit_out_of_scale"},
      {WarningKind::no_misfit, "no_misfit"},
      {WarningKind::noise_contradicted, "noise_contradicted"},
@@ -124,6 +125,7 @@ inline constexpr text::Codes<WarningKind, 55> warning_codes{
      {WarningKind::header_strain, "header_strain"},
      {WarningKind::posterior_not_converged, "posterior_not_converged"},
      {WarningKind::posterior_disagrees, "posterior_disagrees"},
+     {WarningKind::posterior_noise_assumed, "posterior_noise_assumed"},
      {WarningKind::set_up, "set_up"}}};
 
 static_assert(static_cast<std::size_t>(WarningKind::set_up) + 1 == warning_codes.size());

@@ -149,7 +149,10 @@ void Discrepancy::choose_factors(const assembly::Whitening& whitening, const Vec
                                  std::size_t parameters) {
   const auto rows = static_cast<std::size_t>(residuals.size());
   const std::size_t taken = parameters + static_cast<std::size_t>(basis_.cols());
-  if (taken >= rows) return;
+  if (taken >= rows) {
+    factor_assumed_ = !whitening.stated;
+    return;
+  }
   const double rest = residuals.squaredNorm() - (basis_.transpose() * residuals).squaredNorm();
   if (whitening.stated && !assembly::misfit_of(rest, rows, rows, taken).contradicts()) return;
   // ln s is known to 1/√(2ν) about what the shapes leave.

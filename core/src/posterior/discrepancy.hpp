@@ -54,6 +54,8 @@ class Discrepancy {
   [[nodiscard]] Misfit draw(const Eigen::VectorXd& r, CounterRandom& random) const;
 
   [[nodiscard]] bool factor_known() const { return factors_.size() == 1; }
+  /// s = 1 without a statement: shapes and parameters follow every row, and leave nothing to estimate s from.
+  [[nodiscard]] bool factor_assumed() const { return factor_assumed_; }
   /// q
   [[nodiscard]] Eigen::Index shapes() const { return basis_.cols(); }
 
@@ -74,6 +76,7 @@ class Discrepancy {
 
   Eigen::MatrixXd basis_;  ///< Q
   std::vector<double> factors_{1};
+  bool factor_assumed_ = false;
   std::vector<Roughness> kinds_;
 };
 

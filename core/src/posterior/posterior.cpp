@@ -70,6 +70,7 @@ Posterior sample(const assembly::Assembly& assembly, std::span<const double> bes
   const auto question = question_at(assembly, best, measured, found.status, discrepancy);
   if (!question) return found;
   found.factor_known = question->factor_known;
+  found.factor_assumed = question->discrepancy && question->discrepancy->factor_assumed();
   const plugins::Clock::time_point deadline = plugins::deadline_of_this_thread();
   const std::function<bool()> is_over = [&] {
     return (interrupted && interrupted()) || plugins::Clock::now() >= deadline;

@@ -25,9 +25,10 @@ struct Marginal {
 
 /// Draws from the posterior of a run (Question in target.hpp), and what they say.
 struct Posterior {
-  Status status;             ///< failed: no draws
-  bool complete = false;     ///< false: interrupted, or time was over; then there are no chains
-  bool factor_known = true;  ///< all σ are stated, and nothing contradicts them
+  Status status;                ///< failed: no draws
+  bool complete = false;        ///< false: interrupted, or time was over; then there are no chains
+  bool factor_known = true;     ///< all σ are stated, and nothing contradicts them
+  bool factor_assumed = false;  ///< of a discrepancy: known for want of rows to estimate it from
   std::vector<Chain> chains;
   std::vector<Marginal> parameters;
   Bands bands;
