@@ -75,6 +75,20 @@ TEST_F(Deciding, WhatIsFarAheadAndSureLeads) {
   expect({rig("gain", 0.9, 0.95)}, Verdict::unknown, {});
 }
 
+/// Sure among the listed causes, with an unlisted misfit that is less likely.
+TEST_F(Deciding, WhatIsSureAmongListedCausesLeadsBesideADoubt) {
+  budget.unlisted_probability = 0.4;
+  expect({rig("gain", 0.9, 0.55), rig("offset", 0.7, 0.05)}, Verdict::leading, {"gain"});
+  expect({rig("gain", 0.9, 0.35), rig("offset", 0.8, 0.2)}, Verdict::indistinguishable, {"gain", "offset"});
+  expect({rig("gain", 0.9, 0.53), rig("offset", 0.7, 0.07)}, Verdict::unknown, {});
+  budget.unlisted_probability = 0.41;
+  expect({rig("gain", 0.9, 0.59)}, Verdict::unknown, {});
+  // Of a misfit that nobody cares about, the evidence has to be whole.
+  budget.unlisted_probability = 0.3;
+  budget.base.rms = 0.019;
+  expect({rig("gain", 0.9, 0.7)}, Verdict::unknown, {});
+}
+
 /// It takes 95 % and leaves 3 % of the range at most.
 TEST_F(Deciding, WhatLeavesNextToNothingLeadsWhateverTheEvidence) {
   Contender term = form("stretches", 0.96, 0.1);

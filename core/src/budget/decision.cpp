@@ -54,6 +54,14 @@ bool is_enough_alone(const Budget& budget, const Contender& top) {
          top.rest.rms <= half_again * budget.tolerance.share && budget.unlisted_probability < 1 - sure_enough;
 }
 
+/// Whether the evidence is enough: sure among all, or among the causes that are listed. Then an unlisted misfit is less
+/// likely than they are, and the base misses by more than anybody would tolerate.
+bool is_likely(const Budget& budget, const Contenders& some, double sure) {
+  const double probability = probability_of(some), unlisted = budget.unlisted_probability;
+  return probability >= sure || (unlisted <= may_be_unlisted && budget.base.rms > budget.tolerance.share &&
+                                 probability >= sure * (1 - unlisted));
+}
+
 /// What takes about as much as the best, less what the evidence excludes. Forms of the energy are many and alike: among
 /// them it decides also where none is sure.
 Contenders rivals_of(const Budget& budget, const Contender& top, double sure) {
@@ -109,7 +117,7 @@ Decision decided(const Budget& budget) {
   if (alone) std::erase_if(ties, [&](const Contender* one) { return one->probability < unlikely * top->probability; });
   ties = with_another_state_judged(std::move(ties), sure);
   if (std::none_of(ties.begin(), ties.end(), [](const Contender* one) { return believed(*one); })) return {};
-  if (probability_of(ties) < sure && !alone) return {};
+  if (!is_likely(budget, ties, sure) && !alone) return {};
   std::stable_sort(ties.begin(), ties.end(), [](const Contender* a, const Contender* b) {
     return std::pair(!believed(*a), -a->probability) < std::pair(!believed(*b), -b->probability);
   });

@@ -50,6 +50,13 @@ std::string the_misfit(const Budget& budget) {
   return budget.base.rms <= budget.tolerance.share ? "a misfit that is within the tolerance" : "the misfit";
 }
 
+/// "; an unlisted smooth misfit alone would do as much with probability 0.24", where that is not excluded.
+std::string doubt_words(const Budget& budget) {
+  if (budget.unlisted_probability <= 1 - sure_enough) return {};
+  return fmt::format("; an unlisted smooth misfit alone would do as much with probability {:.2f}",
+                     budget.unlisted_probability);
+}
+
 /// `stable`: the base is a material. Where it is none, what leads mends that too, and its form says nothing.
 std::string leading_words(const Budget& budget, const Decision& decision, bool stable) {
   const Contender& first = *decision.first.front();
@@ -309,8 +316,8 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
     budget.lead = *decision.first.front();
     propose_state(budget, d.analysis, catalogue);
     explanation.reasons = {
-        {ReasonKind::leads,
-         leading_words(budget, decision, explanation.admissibility.stable.value_or(true)) + state_words(budget)}};
+        {ReasonKind::leads, leading_words(budget, decision, explanation.admissibility.stable.value_or(true)) +
+                                doubt_words(budget) + state_words(budget)}};
     if (budget.fitted && only_mechanisms(*budget.fitted)) {
       claim(inquiry, d.analysis, budget, *budget.fitted, explanation);
       d.prospects.gain = diagnosis::gain_of(inquiry, d.analysis, explanation.claim);
@@ -322,7 +329,7 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
         d.prospects.next = diagnosis::NextExperiment{fmt::format("To confirm {}.", how), {}, std::nullopt};
     return d;
   }
-  explanation.reasons = {{ReasonKind::several_lead, tie_words(budget, decision)}};
+  explanation.reasons = {{ReasonKind::several_lead, tie_words(budget, decision) + doubt_words(budget)}};
   if (!unseen.empty()) explanation.reasons.push_back(diagnosis::not_looked_for(unseen));
   add_anisotropy(budget, explanation);
   std::vector<std::string> how;
