@@ -26,7 +26,7 @@ namespace {
 
 // Of a field, where every evaluation takes tens of milliseconds.
 constexpr std::size_t narrow_beam = 4, narrow_exchange = 2;
-constexpr std::size_t whole_fit = 60, short_fit = 20;  ///< evaluations
+constexpr Effort short_fits{.evaluations = 20, .starts = 1};
 
 struct SpecimenSearch {
   std::shared_ptr<const Subject> subject;
@@ -39,10 +39,11 @@ bool sees_directions(const diagnosis::Evidence& evidence) {
   return std::ranges::any_of(evidence.curves, [](const diagnosis::Curve& curve) { return !curve.x.empty(); });
 }
 
-/// All sets of closed laws, and of curves where these say more.
+/// All sets of closed laws, and of curves where these say more. `ends_where_far`: where the sets before are far from
+/// noise, they are the answer.
 std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Request& request, const Fitter& fitter,
                                   const std::vector<KindPointer>& kinds, const std::vector<CommonFit>& before,
-                                  bool narrow) {
+                                  bool narrow, bool ends_where_far) {
   constexpr double worth_a_curve = 3;
   const auto is_clean = [&](const SetFit& fit) { return diagnosis::is_clean(p_of_rest(analysis, fit.fit)); };
   const CommonFitter one({&fitter}, {kinds}, request.from_nothing);
@@ -50,6 +51,7 @@ std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Req
   Search how{request.term_limit(), request.most_parameters, &before};
   if (narrow) how.beam = narrow_beam, how.exchanged = narrow_exchange;
   how.linear_first = narrow && sees_directions(analysis.evidence) && request.laws.empty();
+  how.ends_where_far = ends_where_far;
   for (CommonFit& fit : search(one, how, [&](const CommonFit& set) { return is_clean(set.specimens.front()); }))
     sets.push_back(std::move(fit.specimens.front()));
   const std::vector<std::string>& laws = request.laws;
@@ -80,31 +82,31 @@ std::string directions_of_field(const SetFit& without, const SetFit& with) {
 
 /// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions; in a
 /// field, where terms without directions are no match for them.
-/// `before`: sets of a search with another noise. `evaluations`: of a fit.
+/// `before`: sets of a search with another noise.
 SpecimenSearch search_one(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis,
                           const Request& request, bool has_directions, const std::vector<SetFit>& before, bool narrow,
-                          std::size_t evaluations = whole_fit) {
+                          Effort effort = {}) {
   const diagnosis::Evidence& evidence = analysis.evidence;
   auto subject = std::make_shared<const Subject>(
       Subject{evidence.experiment, evidence.run, request.model, request.from_nothing, inquiry.catalogue,
               request.from_nothing && diagnosis::changes_volume(*evidence.base)});
   inquiry.report("what the data reach", 0.3);
   const States states = reached_states(*subject, evidence.fit.free);
-  Fitter fitter(*subject, evidence, evaluations);
+  Fitter fitter(*subject, evidence, effort);
   const bool volume = sees_volume(*subject, evidence);
-  const auto over = [&](bool directions, const std::vector<CommonFit>& sets_before) {
+  const auto over = [&](bool directions, const std::vector<CommonFit>& sets_before, bool ends_where_far) {
     const auto kinds = scaled_kinds(fitter, kinds_of(request, states, directions, volume));
     if (subject->changes_volume) fitter.begin_with(kinds);
-    return searched_over(analysis, request, fitter, kinds, sets_before, narrow);
+    return searched_over(analysis, request, fitter, kinds, sets_before, narrow, ends_where_far);
   };
   inquiry.report("terms of the energy", 0.4);
-  SpecimenSearch found{subject, over(has_directions, as_common(before))};
+  SpecimenSearch found{subject, over(has_directions, as_common(before), request.quick && !request.from_nothing)};
   const bool clean = !found.sets.empty() && diagnosis::is_clean(p_of_rest(analysis, found.sets.front().fit));
   if (!has_directions) found.anisotropy = diagnosis::anisotropy_words(evidence);
   const bool in_field = !has_directions && found.anisotropy.empty() && sees_directions(evidence);
   if ((!found.anisotropy.empty() || in_field) && !clean && request.invariants.empty()) {
     inquiry.report("terms of fibres", 0.6);
-    std::vector<SetFit> with_fibres = over(true, as_common(found.sets));
+    std::vector<SetFit> with_fibres = over(true, as_common(found.sets), false);  // none of these has fibres
     if (!with_fibres.empty() &&
         (found.sets.empty() || with_fibres.front().log_evidence > found.sets.front().log_evidence)) {
       if (in_field && !found.sets.empty() && with_fibres.front().has_fibres())
@@ -151,7 +153,7 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
   // narrow and its fits are short, because another one decides; that begins where the first ended.
   const bool narrow = !stand_ins.empty(), first_of_two = request.quick && diagnosis::has_open_noise(analysis.evidence);
   SpecimenSearch searched = search_one(inquiry, analysis, request, has_directions, {}, narrow || first_of_two,
-                                       first_of_two ? short_fit : whole_fit);
+                                       first_of_two ? short_fits : Effort{});
   if (!searched.sets.empty()) {
     auto again = diagnosis::restated(inquiry, analysis, searched.sets.front().fit);
     const bool decided = !again && !first_of_two;

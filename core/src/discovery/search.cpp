@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t at_once = 16;  ///< fits between two looks at what is still worth one
 constexpr double tolerance = 10;     ///< of the evidence, behind the best so far
+constexpr double far = 100;          ///< of |r|² of noise
 
 using Key = std::vector<std::string>;
 
@@ -38,6 +39,13 @@ std::size_t parameters_of(const std::vector<KindPointer>& kinds) {
   std::size_t count = 0;
   for (const KindPointer& kind : kinds) count += 1 + kind->heights.size() + kind->shapes.size();
   return count;
+}
+
+/// Whether a set leaves far more than noise.
+bool is_far(const CommonFit& fit) {
+  Eigen::Index rows = 0;
+  for (const SetFit& one : fit.specimens) rows += one.fit.residuals.size();
+  return fit.chi2() > far * static_cast<double>(rows);
 }
 
 bool likelier(const CommonFit& a, const CommonFit& b) { return a.log_evidence > b.log_evidence; }
@@ -176,6 +184,19 @@ class Ledger {
     }
   }
 
+  /// The best sets of an earlier search with another noise, from where they ended: likeliest first.
+  std::vector<CommonFit> earlier() {
+    if (!request_.before) return {};
+    std::vector<std::optional<CommonFit>> results(std::min(request_.before->size(), request_.exchanged));
+    tbb::parallel_for(std::size_t{0}, results.size(),
+                      [&](std::size_t k) { results[k] = fitter_.refitted((*request_.before)[k]); });
+    std::vector<CommonFit> sets;
+    for (auto& result : results)
+      if (result) sets.push_back(again_.emplace(key_of(result->kinds), *result).first->second);
+    std::stable_sort(sets.begin(), sets.end(), likelier);
+    return sets;
+  }
+
   [[nodiscard]] std::vector<CommonFit> sorted() const {
     std::vector<CommonFit> sets;
     for (const auto& [key, fit] : all_) sets.push_back(fit);
@@ -189,13 +210,18 @@ class Ledger {
     const KindPointer* kind;
     Key key;
     double most;  ///< that the evidence can come to
+    std::optional<Growth> growth = {};
   };
 
   /// From where an earlier search with another noise ended, if it knew the set and the fit holds with this noise.
-  [[nodiscard]] std::optional<CommonFit> fitted(const Job& job, double worth) const {
+  [[nodiscard]] std::optional<CommonFit> fitted(Job& job, double worth) const {
+    if (const auto again = again_.find(job.key); again != again_.end()) return again->second;
     if (const auto known = before_.find(job.key); known != before_.end())
-      if (auto again = fitter_.refitted(*known->second)) return again;
-    return fitter_.grown(*job.from, *job.kind, worth);
+      if (auto again = fitter_.refitted(*known->second, worth)) return again;
+    if (!job.growth) return fitter_.grown(*job.from, *job.kind, worth);
+    Growth growth = std::move(*job.growth);
+    job.growth.reset();
+    return fitter_.grown(*job.from, *job.kind, std::move(growth), worth);
   }
 
   /// The likelier of what is known of a set and what comes now; whether that is new.
@@ -214,10 +240,14 @@ class Ledger {
       for (const KindPointer& kind : fitter_.kinds()) {
         if (!suits(smaller, *kind) || !(every_law || kind->is_linear())) continue;
         Key key = key_with(smaller.kinds, *kind);
-        if (tried_.insert(key).second) jobs.push_back({&smaller, &kind, std::move(key), 0});
+        if (tried_.insert(key).second) jobs.push_back({&smaller, &kind, std::move(key), INFINITY});
       }
-    tbb::parallel_for(std::size_t{0}, jobs.size(),
-                      [&](std::size_t k) { jobs[k].most = fitter_.most(*jobs[k].from, *jobs[k].kind); });
+    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t k) {
+      Job& job = jobs[k];
+      if (fitter_.of_several()) return;
+      job.growth = fitter_.growth(*job.from, *job.kind);
+      job.most = job.growth ? job.growth->most : -INFINITY;
+    });
     std::erase_if(jobs, [](const Job& job) { return job.most == -INFINITY; });
     std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.most > b.most; });
     return jobs;
@@ -250,6 +280,7 @@ class Ledger {
   std::set<Key> tried_, distilled_;
   std::map<Key, CommonFit> all_;
   std::map<Key, const CommonFit*> before_;
+  std::map<Key, CommonFit> again_;  ///< of these, fitted with this noise
 };
 
 }  // namespace
@@ -257,6 +288,8 @@ class Ledger {
 std::vector<CommonFit> search(const CommonFitter& fitter, const Search& request, const IsClean& is_clean) {
   constexpr std::size_t pairs = 2;
   Ledger ledger(fitter, request);
+  if (request.ends_where_far)
+    if (std::vector<CommonFit> earlier = ledger.earlier(); !earlier.empty() && is_far(earlier.front())) return earlier;
   std::vector<CommonFit> level{fitter.root()};
   const std::size_t first = fitter.root().kinds.size();
   if (first > 0) ledger.begin_with(fitter.root());

@@ -16,6 +16,8 @@ struct Search {
   std::size_t most_parameters = 0;  ///< 0 = no limit
   /// Of the same rows with another noise: fits begin where these ended.
   const std::vector<CommonFit>* before = nullptr;
+  /// Whether the best of these are the answer where even they leave ten times what noise does, as root mean square.
+  bool ends_where_far = false;
   std::size_t beam = 16;      ///< sets that larger ones grow from
   std::size_t exchanged = 6;  ///< sets in which terms make room for others
   /// Sets grow by kinds that are linear in their parameters, which add up to any law nearly; the others take their

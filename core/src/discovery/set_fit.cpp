@@ -18,7 +18,6 @@ using diagnosis::Fit;
 using diagnosis::Projection;
 
 constexpr double idle = 0.5;         ///< effect of a term in σ below which it does nothing
-constexpr std::size_t starts = 2;    ///< of a kind with shapes
 constexpr double as_promised = 0.7;  ///< of the gain: no second start is tried
 
 /// −L⁻¹y, the whitened residuals r of predictions that are all 0: with p any predictions, r(p; y) + r(p; 2p) = −L⁻¹y.
@@ -64,8 +63,6 @@ bool has_shape_at_bound(const SetFit& fit) {
   return false;
 }
 
-double square(double x) { return x * x; }
-
 /// |r|² above which the evidence cannot come to `worth`.
 double wanted_for(double worth) { return std::max(-2 * worth, 0.0); }
 
@@ -94,8 +91,8 @@ double log_prior(const std::vector<KindPointer>& kinds, bool from_nothing) {
   return sum;
 }
 
-Fitter::Fitter(const Subject& subject, const diagnosis::Evidence& evidence, std::size_t evaluations)
-    : subject_(subject), evidence_(evidence), evaluations_(evaluations) {
+Fitter::Fitter(const Subject& subject, const diagnosis::Evidence& evidence, Effort effort)
+    : subject_(subject), evidence_(evidence), effort_(effort) {
   const Eigen::VectorXd nothing = residuals_of_nothing(evidence);
   measured_ = std::max(nothing.norm(), 10.0);
   if (subject.from_nothing) {
@@ -205,9 +202,9 @@ double Fitter::largest_amplitude(const Kind& kind) const {
       Eigen::VectorXd r;
       Eigen::MatrixXd J;
       if (!diagnosis::whitened(set.assembly(), start, *workspace, r, &J).ok()) continue;
-      double effect = square(J.col(static_cast<Eigen::Index>(term.amplitude)).norm());
+      double effect = J.col(static_cast<Eigen::Index>(term.amplitude)).squaredNorm();
       for (const std::size_t height : term.heights)
-        effect = std::max(effect, square(J.col(static_cast<Eigen::Index>(height)).norm()));
+        effect = std::max(effect, J.col(static_cast<Eigen::Index>(height)).squaredNorm());
       if (effect > 0) weakest = std::min(weakest, std::sqrt(effect));
     }
     if (!std::isfinite(weakest)) return 0;
@@ -284,19 +281,20 @@ std::optional<SetFit> Fitter::with_linear(const SetFit& from, std::size_t out, c
 std::optional<SetFit> Fitter::fitted(SetFit set, const std::vector<double>& start, double worth) const {
   const assembly::Assembly& assembly = set.set->assembly();
   set.fit = diagnosis::least_squares(assembly, diagnosis::all_variables(assembly), start,
-                                     *assembly.evaluator().make_workspace(), evaluations_,
+                                     *assembly.evaluator().make_workspace(), effort_.evaluations,
                                      {.wanted = wanted_for(worth), .negligible = diagnosis::says_nothing});
   if (!set.fit.status.ok() || !has_support(set) || has_shape_at_bound(set)) return std::nullopt;
   set.log_evidence = log_evidence(set);
   return set;
 }
 
-std::optional<SetFit> Fitter::refitted(const SetFit& before, const std::vector<KindPointer>& kinds) const {
+std::optional<SetFit> Fitter::refitted(const SetFit& before, const std::vector<KindPointer>& kinds,
+                                       double worth) const {
   if (kinds.empty()) return root_;
   auto found = bound(kinds);
   if (!found) return std::nullopt;
   const std::vector<double> start = start_of(before, *found->set);
-  return fitted(std::move(*found), start);
+  return fitted(std::move(*found), start, worth);
 }
 
 std::optional<Growth> Fitter::growth(const SetFit& from, const KindPointer& more) const {
@@ -335,30 +333,31 @@ std::optional<Growth> Fitter::growth(const SetFit& from, const KindPointer& more
                    [](const Promise& a, const Promise& b) { return a.gain > b.gain; });
   constexpr double worth_trying = 4;
   if (promises.empty() || promises.front().gain < worth_trying) return std::nullopt;
-  if (promises.size() > starts) promises.resize(starts);
-  // Beyond what the linearisation promises, a fit at finite amplitude reaches so many times as much.
-  constexpr double optimism = 3;
+  if (promises.size() > effort_.starts) promises.resize(effort_.starts);
+  constexpr double optimism = 3;  // so many times what the linearisation promises a fit may reach
   const double most = from.log_evidence + optimism * promises.front().gain / 2;
   return Growth{std::move(*larger), own, std::move(promises), most};
 }
 
 std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more, double worth) const {
   auto growth = this->growth(from, more);
-  if (!growth || growth->most < worth) return std::nullopt;
-  SetFit& found = growth->larger;
-  const std::vector<Promise>& promises = growth->promises;
+  return growth ? grown(from, std::move(*growth), worth) : std::nullopt;
+}
+
+std::optional<SetFit> Fitter::grown(const SetFit& from, Growth growth, double worth) const {
+  if (growth.most < worth) return std::nullopt;
+  SetFit& found = growth.larger;
   const assembly::Assembly& assembly = found.set->assembly();
   const auto& parameters = assembly.layout().parameters;
-  const BoundTerm& term = found.set->terms()[growth->own];
+  const BoundTerm& term = found.set->terms()[growth.own];
   const auto workspace = assembly.evaluator().make_workspace();
   const std::vector<double> beginning = start_of(from, *found.set);
 
   std::vector<std::size_t> amplitudes = term.heights;
   amplitudes.push_back(term.amplitude);
-  const std::vector<diagnosis::Variable> variables = diagnosis::all_variables(assembly);
   bool ok = false;
   double share = 1;
-  for (const Promise& promise : promises) {
+  for (const Promise& promise : growth.promises) {
     std::vector<double> at = beginning;
     const double amplitude = share * promise.amplitude;
     for (const std::size_t index : amplitudes)
@@ -385,8 +384,9 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
         }
     }
     share = 0.3;
-    Fit fit = diagnosis::least_squares(assembly, variables, at, *workspace, evaluations_,
-                                       {.wanted = wanted_for(worth), .negligible = diagnosis::says_nothing});
+    Fit fit =
+        diagnosis::least_squares(assembly, diagnosis::all_variables(assembly), at, *workspace, effort_.evaluations,
+                                 {.wanted = wanted_for(worth), .negligible = diagnosis::says_nothing});
     if (!fit.status.ok() || (ok && fit.chi2 >= found.fit.chi2)) continue;
     found.fit = std::move(fit);
     ok = true;

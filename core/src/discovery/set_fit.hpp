@@ -46,11 +46,17 @@ struct Growth {
   double most;                    ///< that ln of the evidence can come to
 };
 
+/// What a fit of a set may cost.
+struct Effort {
+  std::size_t evaluations = 60;  ///< from a start
+  std::size_t starts = 2;        ///< of a kind with shapes, until a fit takes what the linearisation promises
+};
+
 /// Fits sets of terms and weighs them. Const and thread-safe.
 class Fitter {
  public:
-  /// `evidence`: of the base; from nothing of one neo-Hookean term. `evaluations`: after which a fit ends.
-  Fitter(const Subject& subject, const diagnosis::Evidence& evidence, std::size_t evaluations = 60);
+  /// `evidence`: of the base; from nothing of one neo-Hookean term.
+  Fitter(const Subject& subject, const diagnosis::Evidence& evidence, Effort effort = {});
 
   /// The base alone, or nothing: what every set grows from. After begin_with() the first terms of a material that
   /// changes its volume, of which no single term holds a specimen together.
@@ -70,6 +76,8 @@ class Fitter {
   /// at the best of the kind's first shapes. None where the term has nothing to do, where no start can be evaluated,
   /// where a shape ends at its bound, and where the evidence cannot come to `worth`.
   [[nodiscard]] std::optional<SetFit> grown(const SetFit& from, const KindPointer& kind, double worth) const;
+  /// The same of what growth() found.
+  [[nodiscard]] std::optional<SetFit> grown(const SetFit& from, Growth growth, double worth) const;
 
   /// The set with the term `out`, of powers of the stretches, as the linear law that its exponent is close to: μ α/2 is
   /// the modulus at rest, λ² that of I1 and λ⁻² that of I2. None where it cannot be fitted.
@@ -81,8 +89,10 @@ class Fitter {
   [[nodiscard]] std::optional<SetFit> distilled(const SetFit& from, const KindPointer& law,
                                                 double worth = -INFINITY) const;
 
-  /// A set that was fitted to the same rows with another noise, from where that ended. None where it cannot be fitted.
-  [[nodiscard]] std::optional<SetFit> refitted(const SetFit& before, const std::vector<KindPointer>& kinds) const;
+  /// A set that was fitted to the same rows with another noise, from where that ended. None where it cannot be fitted;
+  /// a fit ends early where its evidence cannot come to `worth`.
+  [[nodiscard]] std::optional<SetFit> refitted(const SetFit& before, const std::vector<KindPointer>& kinds,
+                                               double worth = -INFINITY) const;
 
   /// ln of the evidence of a fit with its prior: Laplace's approximation,
   ///
@@ -108,7 +118,7 @@ class Fitter {
 
   const Subject& subject_;
   const diagnosis::Evidence& evidence_;
-  std::size_t evaluations_;
+  Effort effort_;
   SetFit root_;
   double measured_ = 1;  ///< √Σ(y/σ)²
 };

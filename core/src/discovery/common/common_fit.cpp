@@ -97,16 +97,23 @@ std::optional<CommonFit> CommonFitter::weighed(CommonFit fit) const {
   return fit;
 }
 
-double CommonFitter::most(const CommonFit& from, const KindPointer& kind) const {
-  if (fitters_.size() > 1) return INFINITY;
+std::optional<Growth> CommonFitter::growth(const CommonFit& from, const KindPointer& kind) const {
+  if (of_several()) return std::nullopt;
   const KindPointer of_specimen = own(0, *kind);
-  if (!of_specimen) return -INFINITY;
-  const auto growth = fitters_.front()->growth(from.specimens.front(), of_specimen);
-  return growth ? growth->most : -INFINITY;
+  return of_specimen ? fitters_.front()->growth(from.specimens.front(), of_specimen) : std::nullopt;
+}
+
+std::optional<CommonFit> CommonFitter::grown(const CommonFit& from, const KindPointer& kind, Growth growth,
+                                             double worth) const {
+  auto fit = fitters_.front()->grown(from.specimens.front(), std::move(growth), worth);
+  if (!fit) return std::nullopt;
+  CommonFit larger{from.kinds, {std::move(*fit)}};
+  larger.kinds.push_back(kind);
+  return weighed(std::move(larger));
 }
 
 std::optional<CommonFit> CommonFitter::grown(const CommonFit& from, const KindPointer& kind, double worth) const {
-  const bool alone = fitters_.size() == 1;
+  const bool alone = !of_several();
   CommonFit larger{from.kinds, {}};
   larger.kinds.push_back(kind);
   for (std::size_t s = 0; s < fitters_.size(); ++s) {
@@ -124,7 +131,7 @@ std::optional<CommonFit> CommonFitter::grown(const CommonFit& from, const KindPo
   return weighed(std::move(larger));
 }
 
-std::optional<CommonFit> CommonFitter::refitted(const CommonFit& before) const {
+std::optional<CommonFit> CommonFitter::refitted(const CommonFit& before, double worth) const {
   CommonFit again;
   for (const KindPointer& kind : before.kinds) {
     const auto here =
@@ -138,7 +145,7 @@ std::optional<CommonFit> CommonFitter::refitted(const CommonFit& before) const {
       kinds.push_back(own(s, *kind));
       if (!kinds.back()) return std::nullopt;
     }
-    auto fit = fitters_[s]->refitted(before.specimens[s], kinds);
+    auto fit = fitters_[s]->refitted(before.specimens[s], kinds, of_several() ? -INFINITY : worth);
     if (!fit) return std::nullopt;
     again.specimens.push_back(std::move(*fit));
   }

@@ -43,14 +43,18 @@ class CommonFitter {
   [[nodiscard]] const std::vector<KindPointer>& kinds() const { return kinds_; }
   [[nodiscard]] const CommonFit& root() const { return root_; }
 
-  /// What ln of the evidence can come to with one more kind, as Fitter::growth says; −∞: nothing to do. Of several
-  /// specimens ∞: nobody knows before the fits.
-  [[nodiscard]] double most(const CommonFit& from, const KindPointer& kind) const;
+  /// Of several specimens nobody knows before the fits what a set can come to.
+  [[nodiscard]] bool of_several() const { return fitters_.size() > 1; }
+  /// As Fitter::growth; of one specimen only.
+  [[nodiscard]] std::optional<Growth> growth(const CommonFit& from, const KindPointer& kind) const;
   /// The set with one more kind, as Fitter::grown. A specimen in which it does not show keeps what it has; none where
   /// the term shows in fewer than half of the specimens.
   [[nodiscard]] std::optional<CommonFit> grown(const CommonFit& from, const KindPointer& kind, double worth) const;
-  /// As Fitter::refitted; none where a kind is not searched here.
-  [[nodiscard]] std::optional<CommonFit> refitted(const CommonFit& before) const;
+  /// The same of what growth() found.
+  [[nodiscard]] std::optional<CommonFit> grown(const CommonFit& from, const KindPointer& kind, Growth growth,
+                                               double worth) const;
+  /// As Fitter::refitted; none where a kind is not searched here. `worth`: of one specimen only.
+  [[nodiscard]] std::optional<CommonFit> refitted(const CommonFit& before, double worth = -INFINITY) const;
   /// As Fitter::with_linear.
   [[nodiscard]] std::optional<CommonFit> with_linear(const CommonFit& from, std::size_t out,
                                                      const KindPointer& linear) const;
