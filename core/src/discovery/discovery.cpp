@@ -52,11 +52,12 @@ std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Req
   if (narrow) how.beam = narrow_beam, how.exchanged = narrow_exchange;
   how.linear_first = narrow && sees_directions(analysis.evidence) && request.laws.empty();
   how.ends_where_far = ends_where_far;
-  for (CommonFit& fit : search(one, how, [&](const CommonFit& set) { return is_clean(set.specimens.front()); }))
-    sets.push_back(std::move(fit.specimens.front()));
+  auto found = search(one, how, [&](const CommonFit& set) { return is_clean(set.specimens.front()); });
+  const bool ends = how.ends_where_far && !before.empty() && !found.empty() && is_far(found.front());
+  for (CommonFit& fit : found) sets.push_back(std::move(fit.specimens.front()));
   const std::vector<std::string>& laws = request.laws;
   if (sets.empty() || !(laws.empty() || std::find(laws.begin(), laws.end(), "spline") != laws.end())) return sets;
-  if (narrow || request.most_parameters > 0) return sets;  // a curve has more
+  if (narrow || ends || request.most_parameters > 0) return sets;  // a curve has more parameters
   const bool room = sets.front().kinds.size() < request.term_limit();
   const double best = sets.front().log_evidence;
   for (SetFit& curve : with_curves(fitter, sets.front(), kinds, room && !is_clean(sets.front())))

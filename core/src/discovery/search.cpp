@@ -41,13 +41,6 @@ std::size_t parameters_of(const std::vector<KindPointer>& kinds) {
   return count;
 }
 
-/// Whether a set leaves far more than noise.
-bool is_far(const CommonFit& fit) {
-  Eigen::Index rows = 0;
-  for (const SetFit& one : fit.specimens) rows += one.fit.residuals.size();
-  return fit.chi2() > far * static_cast<double>(rows);
-}
-
 bool likelier(const CommonFit& a, const CommonFit& b) { return a.log_evidence > b.log_evidence; }
 
 /// What was tried, and what came of it.
@@ -284,6 +277,12 @@ class Ledger {
 };
 
 }  // namespace
+
+bool is_far(const CommonFit& fit) {
+  Eigen::Index rows = 0;
+  for (const SetFit& one : fit.specimens) rows += one.fit.residuals.size();
+  return fit.chi2() > far * static_cast<double>(rows);
+}
 
 std::vector<CommonFit> search(const CommonFitter& fitter, const Search& request, const IsClean& is_clean) {
   constexpr std::size_t pairs = 2;

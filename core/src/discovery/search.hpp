@@ -16,7 +16,7 @@ struct Search {
   std::size_t most_parameters = 0;  ///< 0 = no limit
   /// Of the same rows with another noise: fits begin where these ended.
   const std::vector<CommonFit>* before = nullptr;
-  /// Whether the best of these are the answer where even they leave ten times what noise does, as root mean square.
+  /// Whether the best of these are the answer where even they are far.
   bool ends_where_far = false;
   std::size_t beam = 16;      ///< sets that larger ones grow from
   std::size_t exchanged = 6;  ///< sets in which terms make room for others
@@ -24,6 +24,9 @@ struct Search {
   /// places in the best sets.
   bool linear_first = false;
 };
+
+/// Whether a set leaves ten times what noise does, as root mean square.
+bool is_far(const CommonFit& fit);
 
 /// Sets of terms that were fitted, likeliest first. All single terms are tried, and all pairs that promise enough: the
 /// best single term often belongs to no pair. Larger sets grow from the best of the smaller ones, while what these
