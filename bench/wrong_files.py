@@ -35,7 +35,7 @@ from hidden_terms.protocol import Curve, channel_slices, observe  # noqa: E402
 from hidden_terms.tubes import inflation  # noqa: E402
 
 DEVELOPMENT_SEED = 301
-UNITS = {"pressure": "kPa", "outer_diameter": "mm", "axial_force": "mN"}
+UNITS = {"time": "s", "pressure": "kPa", "outer_diameter": "mm", "axial_force": "mN"}
 NOISE = 0.01  # of the range of every channel
 BUILT = pathlib.Path(__file__).resolve().parents[1] / "build/release/bin/tunica"
 PROGRAM = os.environ.get("TUNICA", str(BUILT))  # another program: TUNICA=/path/to/tunica
