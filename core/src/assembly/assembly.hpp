@@ -13,8 +13,8 @@ namespace tunica::assembly {
 
 struct Parts;
 
-/// One run's models (with mechanisms) and tests (bound to their data), by what is asked of them. Const and thread-safe
-/// after construction.
+/// One run's models (with mechanisms) and tests (bound to their data), grouped by purpose. Const and thread-safe after
+/// construction.
 class Assembly {
  public:
   /// Reads the data, builds model and tests through the plugins' factories, binds names, shares and fixed values.
@@ -24,10 +24,10 @@ class Assembly {
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
-  [[nodiscard]] const Layout& layout() const { return layout_; }                 ///< what there is
-  [[nodiscard]] const Models& models() const { return models_; }                 ///< the models themselves
-  [[nodiscard]] const UnitBox& box() const { return box_; }                      ///< the coordinates of the search
-  [[nodiscard]] const Constraints& constraints() const { return constraints_; }  ///< what a point has to keep
+  [[nodiscard]] const Layout& layout() const { return layout_; }  ///< models, tests, channels and parameters
+  [[nodiscard]] const Models& models() const { return models_; }  ///< the models themselves
+  [[nodiscard]] const UnitBox& box() const { return box_; }       ///< the coordinates of the search
+  [[nodiscard]] const Constraints& constraints() const { return constraints_; }  ///< c(p) ≤ 0
   [[nodiscard]] const Evaluator& evaluator() const { return evaluator_; }        ///< predictions and objective
 
  private:

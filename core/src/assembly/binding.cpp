@@ -19,7 +19,7 @@ std::string place(const Slot& slot) {
   return fmt::format("{}: parameter '{}'", slot.setting->pointer, slot.declaration.name);
 }
 
-/// A native imperfection takes part only when the file says something about it.
+/// A native imperfection takes part only if the file mentions it.
 bool held(const Slot& slot) {
   if (slot.setting) return slot.setting->fixed.has_value();
   return !std::isnan(slot.null);
@@ -34,7 +34,8 @@ FreeParameter effective(const Slot& slot) {
   if (const ParameterSetting* setting = slot.setting) {
     free.min = setting->min.value_or(own.min);
     free.max = setting->max.value_or(own.max);
-    // The reader fills defaults in, and so does input.json: what differs from them is somebody's choice.
+    // The reader and input.json both fill in defaults. A value that differs from its default is therefore the user's
+    // choice.
     free.own_min = setting->min && *setting->min != slot.declaration.min;
     free.own_max = setting->max && *setting->max != slot.declaration.max;
     free.scale = setting->scale.value_or(own.scale);
@@ -63,7 +64,7 @@ void check_initial(double initial, const FreeParameter& free, const std::string&
   }
 }
 
-/// Narrows `free` to what `slot`, another parameter of the same share, allows as well.
+/// Narrows the bounds of `free` to those of `slot`, another parameter of the same share.
 void tie(FreeParameter& free, const Slot& first, const Slot& slot) {
   const FreeParameter other = effective(slot);
   if (other.unit != free.unit) {
@@ -140,7 +141,7 @@ FreeParameter::Bound FreeParameter::kind_of(bool upper) const {
   constexpr double close = 1e-3;  // 0.3333 stands for 1/3
   const auto is = [bound](double value) { return std::abs(bound - value) <= close * std::max(1.0, std::abs(value)); };
   if (!own || std::abs(bound - limit) <= close * std::max(1.0, std::abs(limit))) {
-    // Mirrored angles give the same families; nothing is softer than 0, and no share exceeds 1.
+    // Mirrored angles give the same families; a stiffness is at least 0, and a share is at most 1.
     if (unit == "deg" && (is(0) || is(90) || is(-90))) return Bound::symmetry;
     if (bound == 0 || (unit == "1" && (is(1.0 / 3) || is(0.5) || is(1)))) return Bound::physical;
   }

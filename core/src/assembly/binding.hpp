@@ -15,10 +15,10 @@ namespace tunica::assembly {
 
 /// One parameter at its place in the parameter vector of its owner, the model or a test.
 struct Slot {
-  Parameter declaration;                                   ///< its name as the outside sees it
-  const experiment::ParameterSetting* setting = nullptr;   ///< what the file says; null = nothing
+  Parameter declaration;                                   ///< under its name outside the plugin
+  const experiment::ParameterSetting* setting = nullptr;   ///< the entry in the file; null = none
   double null = std::numeric_limits<double>::quiet_NaN();  ///< a native imperfection is held here unless mentioned
-  /// The slot of an owner before this one whose value it has: {owner, position}.
+  /// The slot of an earlier owner that supplies its value: {owner, position}.
   struct Same {
     std::size_t owner, position;
   };
@@ -37,7 +37,7 @@ struct Binding {
 /// name, within the intersection of their bounds. Throws InputError with the JSON pointer of the setting.
 Binding bind_parameters(const std::vector<std::vector<Slot>>& owners);
 
-/// Throws InputError for the first setting that no name in `known` answers to; `owner` as in "test 'strip'".
+/// Throws InputError for the first setting whose name is not in `known`; `owner` reads like "test 'strip'".
 void refuse_unknown(const experiment::ParameterSettings& settings, const std::vector<std::string>& known,
                     const std::string& owner);
 

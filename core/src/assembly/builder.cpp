@@ -20,7 +20,7 @@
 namespace tunica::assembly {
 namespace {
 
-/// The model's combinations as functions of the free values; one without a free argument says nothing.
+/// The model's combinations as functions of the free values. A combination without a free argument is left out.
 void add_combinations(const RunModel& model, bool several, std::vector<Combination>& found) {
   for (const Combination& combination : model.model->describe().combinations) {
     const std::string name = several ? fmt::format("{} ({})", model.name, combination.name) : combination.name;
@@ -40,7 +40,7 @@ void add_combinations(const RunModel& model, bool several, std::vector<Combinati
   }
 }
 
-/// Names of several models and of tests begin the names of parameters.
+/// Parameter names begin with the name of their test, or of their model if there are several.
 void refuse_one_name_for_two(const std::vector<std::string>& models, const std::vector<std::string>& tests) {
   if (models.size() < 2) return;
   for (const std::string& model : models)
@@ -68,8 +68,8 @@ void add_stretches(const Test& test, const std::vector<Observable>& observables,
   }
 }
 
-/// Bounds, and values that are held, outside of what the model or test declares. On a logarithmic scale an upper bound
-/// is a habit of its tissue, which others may exceed; a sign is not.
+/// Bounds and held values outside the range that the model or test declares. A declared upper bound on a logarithmic
+/// scale is typical of one tissue, and others may exceed it; a bound on the sign holds for all.
 std::vector<std::string> out_of_range(const std::vector<FreeParameter>& free,
                                       const std::vector<FixedParameter>& fixed) {
   std::vector<std::string> warnings;
@@ -88,7 +88,7 @@ std::vector<std::string> out_of_range(const std::vector<FreeParameter>& free,
   return warnings;
 }
 
-/// A test that reads some parameters of its model only must be given no others to search for.
+/// If a test reads only some parameters of its model, only these may be free.
 void refuse_unread(const RunTest& test, const RunModel& model) {
   const auto& reads = test.test->describe().reads;
   if (!reads) return;
@@ -109,7 +109,7 @@ void refuse_unread(const RunTest& test, const RunModel& model) {
   }
 }
 
-/// From a force over the unloaded section follows the nominal stress. Others follow from it where J = 1 only.
+/// A force over the unloaded section gives the nominal stress. Other stress measures follow from it only if J = 1.
 void refuse_converted_force(const experiment::TestEntry& entry, const std::vector<Observable>& observables,
                             const Model& model) {
   if (!model.describe().compressible || entry.data.stress_measure == "first_piola_kirchhoff") return;
@@ -122,7 +122,7 @@ void refuse_converted_force(const experiment::TestEntry& entry, const std::vecto
           entry.name, name));
 }
 
-/// A size that the test simulates beside the one that the program divides forces or displacements by.
+/// A size in the test's options that differs from the size by which the data reader divides forces or displacements.
 void look_at_sizes(const experiment::TestEntry& entry, std::vector<std::string>& warnings) {
   const data::Sizes& specimen = entry.data.specimen.all;
   const auto compare = [&](const char* option, const char* size, const std::optional<double>& of_specimen) {
@@ -189,7 +189,7 @@ void Builder::compose() {
   }
 }
 
-/// Its models have the parameters of the first ones, but for those that differ.
+/// The models of a state have the parameters of the first state, except those that differ.
 void Builder::add_state(const experiment::StateEntry& state, std::size_t models) {
   std::set<std::string> unread;
   for (const auto& [name, setting] : state.differs) unread.insert(name);
@@ -289,7 +289,7 @@ void Builder::add_blocks(std::size_t number, const data::Dataset& dataset, std::
     const std::string where = fmt::format("test '{}', channel '{}'", channel.test, channel.observable);
     std::vector<std::string> unread;  // warnings of a noise that the objective does not read
     const bool reads = run_.objective == experiment::ObjectiveType::least_squares;
-    // What happens while a stretch is held is no scatter about it.
+    // Changes while a stretch is held are not scatter.
     const bool over_time = channel.drawn_over.name == "time" && !dataset.time.empty();
     const auto along = over_time ? std::vector{std::pair(std::string("time"), dataset.time)} : dataset.abscissae;
     channel.sigma = channel_noise(dataset.channels[k], along, channel.fitted, where, reads ? layout.warnings : unread);

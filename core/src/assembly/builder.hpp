@@ -17,7 +17,7 @@
 
 namespace tunica::assembly {
 
-/// What an Assembly is made of.
+/// The pieces of an Assembly.
 struct Parts {
   Layout layout;
   std::vector<RunModel> models;
@@ -29,8 +29,8 @@ struct Parts {
   std::vector<PriorRow> priors;
 };
 
-/// Makes the parts of one run, step by step: models and tests are composed, their parameters bound, then every test
-/// and its channels laid out one behind the other.
+/// Makes the parts of one run in steps. It composes models and tests, binds their parameters, and then lays out the
+/// tests and their channels in order.
 class Builder {
  public:
   Builder(const experiment::Experiment& experiment, const experiment::RunEntry& run,
@@ -58,7 +58,7 @@ class Builder {
   std::vector<ComposedTest> composed_;
   std::vector<ParameterVector> vectors_;            ///< as the slots
   std::vector<std::string> states_without_effect_;  ///< sentences
-  std::vector<std::string> unstated_;               ///< least squares: what the weights of channels rest on
+  std::vector<std::string> unstated_;               ///< least squares: the source of each channel's weight
 };
 
 }  // namespace tunica::assembly

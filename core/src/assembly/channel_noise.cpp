@@ -14,7 +14,7 @@ namespace tunica::assembly {
 namespace {
 
 constexpr double assumed_share = 0.01;  ///< of the largest value
-constexpr double no_noise = 1e-6;       ///< of it
+constexpr double no_noise = 1e-6;       ///< of the largest value
 
 /// σ² of a row's value from the replicates, with its degrees of freedom; 0 where they agree.
 std::pair<double, double> pooled_deviation(const data::Channel& channel, const std::vector<std::size_t>& rows) {

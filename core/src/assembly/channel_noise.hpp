@@ -10,7 +10,7 @@
 
 namespace tunica::assembly {
 
-/// What the σ of a channel rests on.
+/// The source of a channel's σ.
 enum class NoiseOrigin { stated, replicates, smooth_shapes, assumed };
 
 inline constexpr text::Codes<NoiseOrigin, 4> noise_origin_codes{{
@@ -20,30 +20,31 @@ inline constexpr text::Codes<NoiseOrigin, 4> noise_origin_codes{{
     {NoiseOrigin::assumed, "assumed"},
 }};
 
-/// The noise of one channel: what the fit, its intervals, χ² and AICc read.
+/// The noise of one channel. The fit, its intervals, χ² and AICc all use it.
 struct ChannelNoise {
   NoiseModel rows;  ///< σ of each fitted row
   NoiseOrigin origin = NoiseOrigin::assumed;
   double freedom = 0;  ///< degrees of freedom of an estimate
 
-  /// An estimate or a statement, with which misfit can be compared.
+  /// Whether it is estimated or stated, so that a misfit can be compared with it.
   [[nodiscard]] bool known() const { return origin != NoiseOrigin::assumed; }
   [[nodiscard]] bool stated() const { return origin == NoiseOrigin::stated; }
 };
 
-/// As the file states it; else one σ for all rows of the channel (equal variance), from the first of these that there
-/// is: the deviation of replicates from their mean; the scatter about smooth shapes (smooth_shapes.hpp); a hundredth
-/// of the largest value, which is an assumption. Rounding to a step q errs by q/√12, and σ is at least that. A scatter
-/// below a millionth of the largest value is rounding of a computer, and no noise.
+/// The noise that the file states. Without a statement, all rows of the channel have one σ (equal variance). It comes
+/// from the first available source: the deviation of replicates from their mean; the scatter about smooth shapes
+/// (smooth_shapes.hpp); a hundredth of the largest value, which is an assumption. Rounding to a step q has the standard
+/// error q/√12, and σ is at least that. Scatter below a millionth of the largest value is floating-point rounding, not
+/// noise.
 ///
-/// Always gives an answer for a channel that states none. Throws InputError for a statement that means nothing, naming
-/// `where`; warnings as in noise_model.
+/// A channel without a statement always gets a σ. Throws InputError, naming `where`, for a statement without meaning;
+/// warnings are as in noise_model.
 ChannelNoise channel_noise(const data::Channel& channel,
                            const std::vector<std::pair<std::string, std::vector<double>>>& abscissae,
                            const std::vector<bool>& fitted, const std::string& where,
                            std::vector<std::string>& warnings);
 
-/// One line on channels whose noise nobody stated: "stress of circ ± 0.2 kPa (smooth shapes)".
+/// One line on channels without stated noise: "stress of circ ± 0.2 kPa (smooth shapes)".
 std::string noise_words(const ChannelNoise& noise, const std::string& test, const std::string& observable,
                         const std::string& unit);
 

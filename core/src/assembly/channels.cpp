@@ -18,7 +18,7 @@ std::string unit_of(const std::string& name, const std::vector<Observable>& obse
   return found == observables.end() ? std::string() : found->unit;
 }
 
-/// What rows stand over where nothing is prescribed in the data: the clock, else their numbers.
+/// The abscissa of rows if the data prescribe nothing: time, or else the row number.
 DrawnOver without_abscissae(const data::Dataset& dataset) {
   if (!dataset.time.empty()) return {"time", "s", dataset.time, {}};
   DrawnOver drawn{"row", "1", {}, {}};
@@ -26,7 +26,7 @@ DrawnOver without_abscissae(const data::Dataset& dataset) {
   return drawn;
 }
 
-/// The abscissa of a channel among those of its test; time where they are held or there is none.
+/// The abscissa of a channel among those of its test; time if all of them are held, or if there is none.
 DrawnOver drawn_over(const std::string& channel, const data::Dataset& dataset,
                      const std::vector<Observable>& observables) {
   if (dataset.abscissae.empty()) return without_abscissae(dataset);

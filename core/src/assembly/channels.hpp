@@ -12,11 +12,12 @@
 
 namespace tunica::assembly {
 
-/// Which of the rows of a test are fitted: those that are not held out. The file's rows are meant, wherever they stand.
+/// The rows of a test that are fitted: those that are not held out. Held-out rows are numbered as in the file, whatever
+/// their order here.
 std::vector<bool> fitted_rows(const experiment::TestEntry& entry, const data::Dataset& dataset);
 
-/// What one test measured, channel by channel; its first row lies at `offset` of the predictions. Throws InputError
-/// where weights or held-out rows do not fit the data.
+/// The measured channels of one test; its first row is at `offset` in the predictions. Throws InputError if weights or
+/// held-out rows do not match the data.
 std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entry, const data::Dataset& dataset,
                                                const std::vector<Observable>& observables, std::size_t offset);
 

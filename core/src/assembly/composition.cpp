@@ -85,7 +85,7 @@ std::vector<Slot> own_slots(const std::vector<Parameter>& parameters, const Para
   return slots;
 }
 
-/// Appends the parameters that `layer` put behind `slots`, as the decorator declares them.
+/// Appends to `slots` the parameters that `layer` adds, as the decorator declares them.
 void append_slots(std::vector<Slot>& slots, const std::vector<Parameter>& decorated, const Layer& layer,
                   const ParameterId& entry, const std::string& prefix, const std::string& owner) {
   const auto declared = layer.mechanism->factory.parameters_with(layer.entry->options);
@@ -106,7 +106,7 @@ void append_slots(std::vector<Slot>& slots, const std::vector<Parameter>& decora
   refuse_unknown(layer.entry->parameters, names, fmt::format("mechanism '{}' of {}", layer.entry->name(), owner));
 }
 
-/// Parameters that tests of the type have, but not one with these options.
+/// Parameters that tests of this type can have, but that a test with these options lacks.
 void refuse_excluded(const experiment::TestEntry& entry, const std::vector<Parameter>& of_type,
                      const std::vector<Parameter>& of_test, const std::string& owner) {
   const auto among = [](const std::vector<Parameter>& parameters, const std::string& name) {
@@ -140,8 +140,8 @@ auto card_writer(const experiment::ModelEntry& entry, const plugins::Catalogue& 
   };
 }
 
-/// What mechanisms that stand for native imperfections say of the test's options. A default says nothing against what
-/// the test's own entry says.
+/// The options of the test that mechanisms for native imperfections set. A default of a mechanism does not override the
+/// test's own entry.
 void override_options(Options& options, const std::vector<Option>& of_test, const std::vector<Layer>& mechanisms) {
   const auto is_default = [](const std::vector<Option>& declared, const std::string& name, const Option::Value& value) {
     return std::any_of(declared.begin(), declared.end(), [&](const Option& option) {
@@ -158,8 +158,8 @@ void override_options(Options& options, const std::vector<Option>& of_test, cons
   }
 }
 
-/// Gives the test's own parameters to the mechanism that stands for them: under its names, and free unless fixed. Its
-/// nuisances are the test's with the native's name before theirs.
+/// Hands the test's native parameters to the mechanism that frees them: under the mechanism's names, and free unless
+/// fixed. Its nuisance parameters are those of the test whose names begin with the name of the native parameter.
 void expose_native(std::vector<Slot>& slots, const std::vector<Parameter>& of_test, const Layer& layer,
                    const experiment::TestEntry& entry, const std::string& prefix, const std::string& owner) {
   const MechanismFactory& factory = layer.mechanism->factory;

@@ -14,25 +14,25 @@
 
 namespace tunica::assembly {
 
-/// A model inside its mechanisms, in the canonical order of Stage whatever the file says (several of one stage in
-/// the file's order); a mechanism's parameters stand behind those of what it wraps.
+/// A model inside its mechanisms, in the canonical order of Stage, whatever the order in the file. Mechanisms of one
+/// stage keep the file's order. A mechanism's parameters follow those of the object that it wraps.
 struct ComposedModel {
   std::unique_ptr<Model> model;
   std::string plugin;       ///< "gho 0.1.0"
   std::vector<Slot> slots;  ///< one per parameter of the outermost description
 };
-/// `prefix` stands before the outside names of its parameters.
+/// The outside names of its parameters begin with `prefix`.
 ComposedModel compose_model(const experiment::ModelEntry& entry, const plugins::Catalogue& catalogue,
                             const std::string& prefix);
 
-/// A test bound to its data, inside its mechanisms; outside names carry the test's name.
+/// A test bound to its data, inside its mechanisms; the outside names of parameters begin with the test's name.
 struct ComposedTest {
   std::unique_ptr<Test> test;
   std::string plugin;
   std::vector<Slot> slots;
   data::Dataset dataset;
 };
-/// `model` is what the test writes material cards of; nullptr = it can write none.
+/// The test writes material cards of `model`; nullptr = it can write none.
 ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Catalogue& catalogue,
                           const experiment::ModelEntry* model = nullptr);
 

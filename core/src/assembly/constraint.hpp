@@ -21,7 +21,7 @@ class Constraint {
   /// Values and, unless empty, derivatives by the model's parameters, parameter j of value i at [j·count + i].
   virtual Status evaluate(std::span<const double> parameters, std::span<double> values,
                           std::span<double> derivatives) const = 0;
-  /// What is broken when value i is positive, in words.
+  /// The violated condition in words, for a positive value i.
   [[nodiscard]] virtual std::string words(std::size_t i, double value) const = 0;
 };
 
@@ -34,14 +34,14 @@ struct ModelConstraint {
 /// transverse_stability   one value a stretch of every strip, `range` and `points` (docs/experiment-file.md);
 /// admissible_parameters  one value an inequality that a model declares.
 ///
-/// Each is asked of every model: at the strips that are made of it, over a range, of the inequalities it declares.
-/// Throws InputError, with the place in the file, where a constraint says nothing: no strip and no range, no
-/// inequality declared.
+/// Each constraint applies to every model: at the strips made of it, over a range, to the inequalities that it
+/// declares. Throws InputError, with the place in the file, for a constraint without any condition: no strip and no
+/// range, or no declared inequality.
 std::vector<ModelConstraint> make_constraints(const std::vector<experiment::ConstraintEntry>& entries,
                                               const std::vector<const Model*>& models,
                                               const std::vector<Strip>& strips);
 
-/// The largest stretch at which the constraints of a run ask for stability beyond its strips; 1 = none.
+/// The largest stretch at which the constraints of a run require stability beyond its strips; 1 = none.
 double stated_range(const std::vector<experiment::ConstraintEntry>& entries);
 
 }  // namespace tunica::assembly

@@ -15,7 +15,7 @@ namespace {
 constexpr double tremble = 0.05;  ///< of the range
 constexpr std::size_t hold_rows = 4, long_hold = 8;
 
-/// [first, end) of rows in which the abscissa does not move.
+/// Ranges [first, end) of rows in which the abscissa is held.
 std::vector<std::pair<std::size_t, std::size_t>> holds(const std::vector<double>& abscissa, double range) {
   constexpr double still = 1e-6;  // of the range
   std::vector<std::pair<std::size_t, std::size_t>> found;
@@ -31,7 +31,7 @@ std::vector<std::pair<std::size_t, std::size_t>> holds(const std::vector<double>
 /// x in [−1, 1] between the ends of a range.
 double between(double x, double low, double high) { return high > low ? 2 * (x - low) / (high - low) - 1 : 0; }
 
-/// The branches of a path; none where it trembles rather than turns.
+/// The branches of a path; none if its reversals are only jitter.
 std::vector<data::Branch> branches(const std::vector<double>& path) {
   constexpr std::size_t least_rows = 8;  // of a branch, on average
   std::vector<data::Branch> found = path.empty() ? std::vector<data::Branch>() : data::branches_of(path, path.front());
@@ -41,7 +41,7 @@ std::vector<data::Branch> branches(const std::vector<double>& path) {
 
 class CurveColumns {
  public:
-  /// `each_branch`: those after the first loading and unloading have shapes of their own too, for half of the rows.
+  /// `each_branch`: branches after the first loading and unloading also have their own shapes, for half of the rows.
   CurveColumns(const std::vector<double>& abscissa, unsigned most, bool each_branch)
       : abscissa_(abscissa), most_(most), left_(abscissa.size() / 3), each_branch_(each_branch) {}
 
@@ -57,7 +57,7 @@ class CurveColumns {
     const bool up = std::count(directions.begin(), directions.end(), 1) > 0,
                down = std::count(directions.begin(), directions.end(), -1) > 0;
     const std::vector<double> direction(directions.begin(), directions.end());
-    // Low degrees first, so that a short curve has those of both directions.
+    // Low degrees come first: a short curve then has the low degrees of both directions.
     for (unsigned degree = 0; degree <= most_; ++degree) {
       add(degree, u, once);
       if (up && down && degree >= 1 && degree < most_) add(degree - 1, u, direction);
@@ -76,7 +76,7 @@ class CurveColumns {
   }
 
  private:
-  /// Cycles differ from one another, in whatever way.
+  /// Any difference between cycles.
   void add_later_branches(const std::vector<data::Branch>& all) {
     const std::size_t n = abscissa_.size();
     left_ += n / 2 - n / 3;
@@ -119,7 +119,7 @@ std::vector<int> loading_directions(const std::vector<double>& abscissa) {
   const auto [low, high] = std::minmax_element(abscissa.begin(), abscissa.end());
   const double range = *high - *low;
   if (!(range > 0)) return direction;
-  // From one extreme to the next one that lies on the other side by more than a tremble.
+  // From one extreme to the next opposite one, if they differ by more than the jitter.
   std::size_t from = 0, extreme = 0;
   int heading = 0;
   const auto close = [&](std::size_t end) {

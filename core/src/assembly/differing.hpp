@@ -5,7 +5,7 @@
 
 namespace tunica::assembly {
 
-/// A parameter that has a value of its own in a state of the specimen.
+/// A parameter with a separate value in a state of the specimen.
 struct Differing {
   std::string state, name;  ///< as results name it in the state of the models: "mu"
   std::string own;          ///< as results name it in this state: "relaxed.mu"

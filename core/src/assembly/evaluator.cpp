@@ -21,13 +21,13 @@
 namespace tunica::assembly {
 namespace {
 
-/// What a plugin says of a failure, which is kept for every evaluation.
+/// A plugin's reason for a failure, which is kept for every evaluation.
 std::string bounded(const std::string& reason) {
   constexpr std::size_t longest = 2000;  // bytes
   return reason.size() <= longest ? reason : text::excerpt(reason, longest);
 }
 
-/// Whether a model answers with numbers at rest.
+/// Whether a model returns finite numbers at rest.
 bool answers_at_rest(const Model& model, std::span<const double> parameters) {
   constexpr std::array<double, 6> C{1, 1, 1, 0, 0, 0};
   std::array<double, 6> S{};
@@ -35,8 +35,8 @@ bool answers_at_rest(const Model& model, std::span<const double> parameters) {
          std::all_of(S.begin(), S.end(), [](double s) { return std::isfinite(s); });
 }
 
-/// Which of the materials of layers failed, behind the reason: the one whose call said so, or one that has no stress
-/// even at rest. Nothing where neither is seen, as where an energy overflows under load.
+/// Appends to the reason which layer's material failed: the one whose call failed, or one without a finite stress even
+/// at rest. It appends nothing if neither applies, for example if an energy overflows under load.
 std::string failed_layer(const RunTest& test, std::span<const double> materials) {
   const Model* const failed = plugins::last_failed_model();
   std::size_t first = 0;
@@ -64,7 +64,7 @@ void write_rows(const ChannelObjective& channel, const RunTest& test, const doub
   const std::size_t* const rows = channel.rows.data();
   const double* const own = channel.own.data();
   if (count == 0) return;
-  // Mostly all rows of a channel are fitted: then they stand side by side.
+  // Usually all rows of a channel are fitted, and are then contiguous.
   const bool in_a_row = rows[count - 1] - rows[0] == count - 1;
   for (const auto& [free, slot] : test.columns) {
     const double* const values = by_slot + slot * test.size();
@@ -162,7 +162,7 @@ Status Evaluator::predict_test(const RunTest& test, std::span<const double> at, 
   }
   const std::span<double> by_slot(workspace.jacobian.data(), test.slots() * size);
   if (Status status = call(test, at, values, by_slot, workspace); !status.ok()) {
-    // A path along which derivatives cannot be carried may still be simulated.
+    // A path without derivatives can still be simulated.
     if (test.model->describe().history_size == 0 || !call(test, at, values, {}, workspace).ok()) return status;
     return difference(test, at, values, workspace);
   }
@@ -170,7 +170,7 @@ Status Evaluator::predict_test(const RunTest& test, std::span<const double> at, 
     for (std::size_t i = 0; i < size; ++i) by_slot[into * size + i] += by_slot[from * size + i];
   }
   if (detail::all_finite(by_slot.data(), by_slot.size())) return {};
-  // Derivatives by held parameters are nobody's business: only those that count are checked.
+  // Derivatives by held parameters are not used, so only the others are checked.
   for (const auto& [index, slot] : test.columns) {
     const auto column = by_slot.subspan(slot * size, size);
     if (const std::size_t bad = first_not_finite(column); bad < size) {

@@ -35,9 +35,9 @@ enum class CostlyTests {
   nowhere          ///< the objective is then a lower bound
 };
 
-/// From free parameter values, in base units, to predictions, residuals and objective of a run. Const and thread-safe;
-/// each thread brings a workspace, and evaluation allocates nothing, unless it has to difference a test. Refers to what
-/// it was made with.
+/// Maps free parameter values, in base units, to predictions, residuals and objective of a run. Const and thread-safe:
+/// each thread passes its own workspace. Evaluation allocates nothing unless it has to difference a test. It keeps
+/// references to its constructor's arguments.
 class Evaluator {
  public:
   Evaluator(const Layout& layout, const Models& models, const Constraints& constraints, std::vector<RunTest> tests,
@@ -55,7 +55,7 @@ class Evaluator {
                  Workspace& workspace) const;
   /// Objective, per-test cost (one per test of the run, holding out excluded) and, unless empty, residuals and their
   /// Jacobian by the free parameters, row-major. Never NaN under ok. Infeasible, with all of these set, where a
-  /// constraint exceeds Problem::constraint_tolerance; the reason names the one that is broken most.
+  /// constraint exceeds Problem::constraint_tolerance; the reason names the most violated one.
   ///
   /// Cheap tests come first, then the constraints, costly tests last (Canales et al. 2023, Figure 7). Where `costly`
   /// leaves them out and no residuals are asked for, their per_test is NaN and the objective that of the others. It is
@@ -68,8 +68,8 @@ class Evaluator {
   /// the data: draws of a bootstrap, synthetic data. σ and ranges stay those of the data. Empty = the data again.
   void measure(std::span<const double> values, Workspace& workspace) const;
 
-  /// From now on Jacobians in this workspace may be updates of what the search remembers, and it remembers what they
-  /// are, see Differencing::updates. None = differences each time.
+  /// From now on Jacobians in this workspace may be updates of the last one in the search's memory. The memory then
+  /// keeps each new Jacobian, see Differencing::updates. None = differences each time.
   void remember(SecantMemory* memory, Workspace& workspace) const;
   /// What the tests have done so far, one entry a test of the run.
   [[nodiscard]] std::vector<std::pair<std::string, std::vector<Effort>>> efforts() const;
@@ -78,7 +78,7 @@ class Evaluator {
   /// value a residual (priors left out) to one a prediction.
   void transpose_residuals(std::span<const double> by_residual, std::span<double> by_prediction) const;
 
-  /// Puts a question to one test at these parameters; what it throws becomes a failure.
+  /// Calls one test at these parameters; an exception becomes a failure.
   Status ask(std::size_t test, std::span<const double> free,
              const std::function<Status(const Test&, const TestInput&)>& question) const;
   /// Diagnostics of one test at these parameters, name → row values (transverse stretch, iterations).
@@ -95,20 +95,20 @@ class Evaluator {
   /// Rows of the workspace's Jacobian by free parameter, from differences of `values` (differences.cpp).
   Status difference(const RunTest& test, std::span<const double> at, std::span<const double> values,
                     Workspace& workspace) const;
-  /// The same for a test that states how, see Differencing: side by side, or by an update of what the search remembers.
+  /// The same for a test that declares its Differencing: in parallel, or by an update of the search's last Jacobian.
   Status difference_as_stated(const RunTest& test, std::span<const double> at, std::span<const double> values,
                               Workspace& workspace) const;
   /// Where one evaluation writes; empty = not wanted.
   struct Wanted {
     std::span<double> per_test, residuals, jacobian;
   };
-  /// Adds what the tests cost that are costly, or those that are not, one after the other.
+  /// Adds the costs of the costly tests, or of the other tests, in order.
   Status add_costs(bool costly, std::span<const double> at, double& total, const Wanted& wanted,
                    Workspace& workspace) const;
   void add_priors(std::span<const double> at, double& total, const Wanted& wanted) const;
   /// The parameters of a test at these free ones, in the workspace.
   TestInput input(const RunTest& test, std::span<const double> at, Workspace& workspace) const;
-  /// Where among a test's values something lies: "channel 'stress', row 12 (stretch 1.8)".
+  /// The place of an entry among a test's values: "channel 'stress', row 12 (stretch 1.8)".
   [[nodiscard]] std::string place(const RunTest& test, std::size_t position) const;
 
   const Layout& layout_;

@@ -8,7 +8,7 @@ namespace tunica::assembly {
 
 namespace {
 
-constexpr double least_fraction = 0.1;  ///< of a variance at the largest level that is worth a word
+constexpr double least_fraction = 0.1;  ///< smallest reported part of the variance at the largest level
 constexpr double next_to_none = 1e-9;   ///< degrees of freedom
 
 /// (level/largest level of the group)² of every row; 0 where the variance is known.
@@ -24,8 +24,8 @@ Eigen::VectorXd squared_levels(const VarianceProblem& problem, const Eigen::Vect
   return squared;
 }
 
-/// The slope of the likelihood by a share that all variances have, at 0: only where rows of a large level err more than
-/// the others of their group is there a share to look for.
+/// The derivative of the likelihood by a share common to all variances, at share 0. A share is sought only if rows of a
+/// large level have larger errors than others of their group.
 double slope_at_none(const VarianceProblem& problem, const Eigen::VectorXd& squared) {
   const RestrictedVariance now = restricted_variance(problem);
   const auto group_of = [&](Eigen::Index i) { return problem.group[static_cast<std::size_t>(i)]; };
@@ -67,7 +67,7 @@ GrowingNoise growing_noise(VarianceProblem& problem, const std::vector<std::size
   double now = misfit_with(found.share);
   std::vector<double> common = found.share;
   if (slope_at_none(problem, squared) > 0) {
-    // Likelihoods L_s by share, s = 0 as likely before as all others together; f = Σ L_s s/(1 + s)/Σ L_s.
+    // Likelihoods L_s by share. A priori s = 0 is as probable as all others together; f = Σ L_s s/(1 + s)/Σ L_s.
     double all = 0, fraction = 0;
     for (const double share : grid) {
       const double gain = share == 0 ? 0 : now - misfit_with(std::vector(families, share));

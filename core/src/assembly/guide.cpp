@@ -12,14 +12,14 @@
 namespace tunica::assembly {
 namespace {
 
-/// Options that the stand-in leaves open take their default, as in a file.
+/// Options that the stand-in does not set take their default, as in a file.
 Options completed(Options given, const std::vector<Option>& declared) {
   for (const Option& option : declared)
     if (!given.has(option.name) && option.fallback) given.set(option.name, *option.fallback);
   return given;
 }
 
-/// Whether residuals and parameters of the two mean the same.
+/// Whether the residuals and parameters of both runs have the same meaning.
 bool alike(const Layout& a, const Layout& b) {
   const auto same_name = [](const FreeParameter& one, const FreeParameter& other) { return one.name == other.name; };
   return a.residual_count == b.residual_count && a.blocks.size() == b.blocks.size() &&

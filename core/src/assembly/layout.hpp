@@ -21,14 +21,14 @@
 
 namespace tunica::assembly {
 
-/// Bounds that the owner of a parameter declares: outside of them it may mean nothing.
+/// Bounds that the owner of a parameter declares. Outside them the parameter may have no meaning.
 struct DeclaredRange {
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool contains(double value) const { return value >= min && value <= max; }
 };
 
-/// A parameter the run searches for, with its name as the outside sees it: "mu", "viscoelasticity.tau",
+/// A parameter that the run searches for, with its outside name: "mu", "viscoelasticity.tau",
 /// "circumferential_strip.force_offset.value"; base units.
 struct FreeParameter {
   std::string name, unit;
@@ -36,11 +36,11 @@ struct FreeParameter {
   Scale scale;
   std::optional<experiment::Prior> prior;
   DeclaredRange declared = {};
-  std::vector<ParameterId> places = {};  ///< one; of a share all that share it
-  /// The bound, or the initial value, is the file's and not its owner's default.
+  std::vector<ParameterId> places = {};  ///< one; for a share, all parameters that share it
+  /// Whether the file sets the bound or the initial value, rather than the owner's default.
   bool own_min = false, own_max = false, own_initial = false;
 
-  /// What a bound is: somebody's choice, the owner's default, or an end beyond which there is nothing new.
+  /// The kind of a bound: the user's choice, the owner's default, or an end of the distinct values.
   enum class Bound { chosen, by_default, symmetry, physical };
   [[nodiscard]] Bound kind_of(bool upper) const;
 };
@@ -51,7 +51,7 @@ struct FixedParameter {
   DeclaredRange declared = {};
 };
 
-/// What plots and messages lay a channel over.
+/// The abscissa of a channel in plots and messages.
 struct DrawnOver {
   std::string name, unit;
   std::vector<double> values;       ///< one a row
@@ -75,7 +75,7 @@ struct MeasuredChannel {
   std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it
   ChannelNoise sigma = {};           ///< of the fitted rows, stated or not: what everything that needs a noise reads
 
-  /// The number that a row has in the file, behind `where` and `rows`.
+  /// The number of a row in the file, after `where` and `rows` are applied.
   [[nodiscard]] std::size_t file_row(std::size_t row) const { return file_rows.empty() ? row : file_rows[row]; }
   /// Whether its rows are points of a measured field: "x" and "y" are prescribed.
   [[nodiscard]] bool is_field() const { return coordinate("x") != nullptr && coordinate("y") != nullptr; }
@@ -96,7 +96,7 @@ struct MeasuredChannel {
   }
 };
 
-/// What a run consists of; nothing in it depends on parameter values.
+/// The contents of a run; nothing here depends on parameter values.
 struct Layout {
   std::vector<FreeParameter> parameters;
   std::vector<FixedParameter> fixed_parameters;
@@ -107,16 +107,16 @@ struct Layout {
   std::vector<Differing> differing = {};  ///< parameters with values of their own in a state of the specimen
   std::vector<std::string> warnings;
   std::vector<data::Finding> findings = {};  ///< about the records of the tests, and about the file
-  std::vector<std::string> notes;            ///< what should be known, and worries nobody
+  std::vector<std::string> notes;            ///< remarks that are not warnings
   std::vector<std::string> data_hashes;      ///< "circ.csv sha256:…"
   std::size_t test_count = 0;                ///< tests of the run: entries of per_test
   std::size_t prediction_count = 0;          ///< Σ channel counts, held-out rows included
   std::size_t residual_count = 0;            ///< fitted rows and priors
   bool jacobian_is_exact = true;             ///< false: some test's predictions are differenced
-  bool derivatives_missing = false;          ///< some test is differenced that does not say how, see Differencing
+  bool derivatives_missing = false;          ///< a differenced test lacks a Differencing declaration
   bool has_costly_tests = false;             ///< some fitted test declares itself costly
 
-  /// The position in `parameters`; nothing where it is held or unknown.
+  /// The position in `parameters`; none if it is held or unknown.
   [[nodiscard]] std::optional<std::size_t> index_of(const ParameterId& id) const;
 };
 

@@ -11,7 +11,7 @@
 namespace tunica::assembly {
 namespace {
 
-/// "'a', 'b' and 'c'" of the tests with such a past; empty = none.
+/// "'a', 'b' and 'c'": the tests with such a history; empty = none.
 std::string tests_with(const std::vector<TestPast>& pasts, data::Past past) {
   std::vector<std::string> names;
   for (const TestPast& one : pasts)

@@ -9,26 +9,26 @@
 #include "plugins/catalogue.hpp"
 #include "tunica/mechanism.hpp"
 
-/// Which tests of a run have to do with the past, and what is known of it.
+/// The tests of a run that depend on the loading history, and what is known of that history.
 namespace tunica::assembly {
 
-/// A test of a run, and why the past of its rows is not known.
+/// A test of a run, and the reason why the history of its rows is unknown.
 struct TestPast {
   std::string test;
   data::Past past;
 };
 
-/// The tests of the run whose past is not known.
+/// The tests of the run whose history is unknown.
 std::vector<TestPast> unknown_pasts(const experiment::Experiment& experiment, const experiment::RunEntry& run,
                                     const plugins::Catalogue& catalogue);
 
-/// Whether a row of what the mechanism makes depends on the rows before it.
+/// Whether a row depends on earlier rows under the mechanism.
 bool has_memory(const MechanismFactory& mechanism);
 
-/// The models that a test is made of: that of the run, or those of its layers.
+/// The models of a test: that of the run, or those of its layers.
 std::vector<std::string> models_of_test(const experiment::TestEntry& test, const experiment::RunEntry& run);
 
-/// Whether a model of the test, or a mechanism of either, has memory.
+/// Whether a model of the test, or a mechanism of the test or its models, has memory.
 bool has_memory(const experiment::Experiment& experiment, const experiment::TestEntry& test,
                 const experiment::RunEntry& run, const plugins::Catalogue& catalogue);
 
@@ -36,7 +36,7 @@ bool has_memory(const experiment::Experiment& experiment, const experiment::Test
 /// column", of all these tests.
 std::string words_of(const std::vector<TestPast>& pasts);
 
-/// What is taken for the past of tests in which something has memory: one sentence; empty for no tests.
+/// One sentence on the assumed history of tests with memory; empty for no tests.
 std::string assumption_words(const std::vector<TestPast>& pasts);
 
 }  // namespace tunica::assembly

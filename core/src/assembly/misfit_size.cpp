@@ -21,7 +21,7 @@ namespace {
 double noncentrality_bound(double squares, double freedom) {
   constexpr double level = 0.05, quantile = 1.645, plain = 2000;
   if (!(freedom > 0)) return squares;
-  // Nearly Gaussian where it is large, and the exact series is slow there: with d = x − ν,
+  // For a large noncentrality the distribution is nearly Gaussian and the exact series is slow. With d = x − ν,
   //   λ − d = q √(2ν + 4λ).
   if (squares > plain) {
     const double q2 = quantile * quantile, d = squares - freedom, root = 4 * d + 4 * q2 + 2 * freedom;

@@ -14,7 +14,7 @@
 
 namespace tunica::assembly {
 
-/// How large a misfit is that noise does not explain, as a root mean square over rows.
+/// The size of a misfit that noise does not explain, as a root mean square over rows.
 struct Size {
   double rms = 0, upper = 0;  ///< share of the range of the measured values; estimate and upper 95 % bound
 };
@@ -29,8 +29,8 @@ struct ChannelSize {
   [[nodiscard]] Size of_range() const { return {rms / range, upper / range}; }
 };
 
-/// By Layout::channels, the range of what was measured of the observable in all tests of the same type: a channel that
-/// hardly moves is compared with what its observable does elsewhere. The largest |value| where nothing varies.
+/// By Layout::channels, the measured range of the observable in all tests of the same type. A nearly constant channel
+/// is thus compared with the range of its observable in other tests. If nothing varies, the largest |value|.
 std::vector<double> observable_ranges(const Layout& layout, const experiment::Experiment& experiment);
 
 /// The fitted rows of a channel; of a field the steps that have points.
@@ -57,7 +57,7 @@ class MisfitSize {
   [[nodiscard]] double squares(const Eigen::VectorXd& residuals, std::size_t free) const {
     return squares(residuals.squaredNorm(), free);
   }
-  /// The same where only |r|² is known.
+  /// The same if only |r|² is known.
   [[nodiscard]] double squares(double chi2, std::size_t free) const;
   [[nodiscard]] Size of(const Eigen::VectorXd& residuals, std::size_t free) const;
   [[nodiscard]] std::vector<ChannelSize> channels(const Eigen::VectorXd& residuals, std::size_t free) const;
@@ -68,7 +68,7 @@ class MisfitSize {
   struct Rows {
     Eigen::Index first, count;
   };
-  /// Of the rows of a channel, with errors of the size of their range as 1.
+  /// Of the rows of a channel, in units of their range.
   [[nodiscard]] double error_squares(std::size_t channel, const Eigen::VectorXd& residuals) const;
 
   std::vector<Channel> channels_;
@@ -76,12 +76,12 @@ class MisfitSize {
   Eigen::Index rows_ = 0;
 };
 
-/// What is stated for a channel as not worth caring about ("2 %" or a quantity, by observable; "" = all), as a share of
-/// its range; none: nothing.
+/// The tolerance stated for a channel ("2 %" or a quantity, by observable; "" = all), as a share of its range; none
+/// without a statement.
 std::optional<double> stated_tolerance(const std::vector<std::pair<std::string, std::string>>& stated,
                                        const ChannelSize& channel);
 
-/// Shares of channels as one: averaged as squares over rows.
+/// The shares of channels combined: mean squares over rows.
 double over_rows(const std::vector<ChannelSize>& channels, const std::vector<double>& shares);
 
 /// "most in pulled, stress: 0.12 kPa (7.1 % of the range, at most 7.5 %)"; empty without channels.

@@ -18,19 +18,19 @@ struct RunModel {
   std::string name, plugin;
   std::shared_ptr<Model> model;  ///< one for all states of the specimen
   ParameterVector parameters;
-  std::string state = {};  ///< of the specimen that the parameters are of; empty = that of the models
+  std::string state = {};  ///< the specimen's state of these parameters; empty = that of the models
 };
 
 /// A strip with free lateral faces among the tests of a run, and the stretches it was measured at.
 struct Strip {
   std::string test;
-  std::size_t model = 0;  ///< which of the run's it is made of
+  std::size_t model = 0;  ///< the position of its model among those of the run
   std::size_t axis = 0;   ///< 0 = circumferential, 1 = axial
   std::vector<double> stretches;
 };
 
-/// The models of a run with their mechanisms, its own first, then those of layers; and the stretches that the run
-/// takes them to.
+/// The models of a run with their mechanisms: the run's own first, then those of layers. Also the stretches that the
+/// models reach in the run.
 class Models {
  public:
   Models(std::vector<RunModel> models, std::vector<Strip> strips, double largest_stretch)
@@ -46,7 +46,7 @@ class Models {
   /// In a state other than that of the models, "gho (relaxed)".
   [[nodiscard]] const std::string& name(std::size_t model) const { return models_[model].name; }
   [[nodiscard]] const Model& model(std::size_t model) const { return *models_[model].model; }
-  /// Where the free parameters go in the model's vector.
+  /// The positions of the free parameters in the model's vector.
   [[nodiscard]] const ParameterVector& vector(std::size_t model) const { return models_[model].parameters; }
   /// All parameters of a model, in its order.
   [[nodiscard]] std::vector<double> parameters(std::size_t model, std::span<const double> free) const {

@@ -21,7 +21,7 @@ std::vector<std::size_t> indices(const std::vector<bool>& fitted) {
   return rows;
 }
 
-/// With purely relative noise rows near zero are all but exact, and the least offset there is a misfit of many σ.
+/// Under purely relative noise, rows near zero are nearly exact. Even a small offset is a misfit of many σ there.
 void warn_of_exact_rows(const std::vector<double>& sd, const std::vector<std::size_t>& rows, const std::string& unit,
                         const std::string& where, std::vector<std::string>& warnings) {
   constexpr double all_but_exact = 1e-3;

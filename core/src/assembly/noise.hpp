@@ -21,15 +21,15 @@ struct NoiseModel {
 /// has σ/√m; a row to which the statement gives σ = 0 (y = 0 under relative noise) takes the smallest σ of the others,
 /// with a warning. Stated correlation c of neighbouring rows becomes c^g across g − 1 rows that are held out.
 ///
-/// Not stated, and always with a warning, one σ for the channel. With replicates: the pooled deviation about the row
-/// means. Without: the deviation of each measured value from the line through its two neighbours in loading order
-/// (Gasser, Sroka, Jennen-Steinmetz, Biometrika 73:625, 1986), turning points left out,
+/// Without a statement, the channel has one σ, and always a warning. With replicates, it is the pooled deviation about
+/// the row means. Without replicates, it is the deviation of each measured value from the line through its two
+/// neighbours in loading order (Gasser, Sroka, Jennen-Steinmetz, Biometrika 73:625, 1986), without turning points,
 ///
 ///   σ² = mean of (a y₋ + b y₊ − y)² / (a² + b² + 1),   a = (x₊ − x)/(x₊ − x₋),  b = 1 − a,
 ///
-/// never residuals of a fit, so that a wrong model cannot pass for noise. Smooth curvature makes it a little too
-/// large, correlation between neighbours too small. Throws InputError when nothing can be estimated; `where` names
-/// test and channel.
+/// It never uses residuals of a fit, because the misfit of a wrong model would pass for noise. Smooth curvature makes σ
+/// slightly too large; correlation between neighbours makes it too small. Throws InputError when nothing can be
+/// estimated; `where` names test and channel.
 NoiseModel noise_model(const data::Channel& channel, std::span<const double> abscissa, const std::vector<bool>& fitted,
                        const std::string& where, std::vector<std::string>& warnings);
 

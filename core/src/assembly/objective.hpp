@@ -38,7 +38,7 @@ struct PriorRow {
 ///   sum_of_norms            J = w ‖y − ŷ‖                                           r = e, ρ = √
 ///
 /// Fills own, previous, block.weight and block.loss. Throws InputError naming `where` when the range is zero,
-/// or a measured value is beyond all units.
+/// or a measured value is too large for any unit.
 void scale_residuals(ChannelObjective& fitted, experiment::ObjectiveType objective, double weight,
                      const NoiseModel* noise, const std::string& where);
 

@@ -8,7 +8,7 @@
 
 namespace tunica::assembly {
 
-/// Where a parameter is in an experiment. Its name for people, with dots, is FreeParameter::name.
+/// The place of a parameter in an experiment. FreeParameter::name is its readable name, with dots.
 struct ParameterId {
   enum class Owner { model, test, state };
   Owner kind = Owner::model;
@@ -26,7 +26,7 @@ inline ParameterId of_test(std::string test, std::string mechanism, std::string 
   return {ParameterId::Owner::test, std::move(test), std::move(mechanism), std::move(name)};
 }
 
-/// What the file says of it: an empty setting where it says nothing yet. std::logic_error: there is no such owner.
+/// Its setting in the file; an empty one if the file has none yet. Throws std::logic_error for an unknown owner.
 experiment::ParameterSetting& setting_at(experiment::Experiment& experiment, const ParameterId& id);
 
 }  // namespace tunica::assembly

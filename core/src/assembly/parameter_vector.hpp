@@ -12,7 +12,7 @@ struct Link {
   std::size_t position, index;
 };
 
-/// The parameter vector of one owner, a model or a test: held values filled in, and where the free ones go.
+/// The parameter vector of one owner, a model or a test: the held values, and the positions of the free ones.
 struct ParameterVector {
   std::vector<double> values;  ///< free ones at their initial value
   std::vector<Link> links;

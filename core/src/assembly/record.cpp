@@ -25,7 +25,7 @@ const std::vector<double>* column_of(const data::Dataset& dataset, std::string_v
   return nullptr;
 }
 
-/// Of two lengths of three the third follows: outer = inner + thickness.
+/// Two of the three lengths give the third: outer = inner + thickness.
 double unloaded_diameter(const experiment::TestEntry& entry, bool outer) {
   const double outer_radius = option_of(entry, "outer_radius"), inner_radius = option_of(entry, "inner_radius");
   double thickness = option_of(entry, "thickness");

@@ -23,7 +23,7 @@ RestrictedVariance restricted_variance(const VarianceProblem& problem, std::size
   found.variance.assign(groups, 1);
   found.at_least.assign(groups, false);
   const auto least = [&](std::size_t g) { return g < problem.least.size() ? problem.least[g] : 0.0; };
-  // Where the search begins: nothing is lost to the columns.
+  // The search begins without any loss to the columns.
   std::vector<double> squares(groups, 0), rows(groups, 0);
   for (Eigen::Index i = 0; i < n; ++i) {
     const std::size_t g = problem.group[static_cast<std::size_t>(i)];

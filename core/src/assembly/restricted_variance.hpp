@@ -9,12 +9,13 @@
 
 namespace tunica::assembly {
 
-/// Group of a row whose variance is known: it stays as its shape says.
+/// Group of a row with known variance, which equals its shape.
 constexpr std::size_t known_variance = static_cast<std::size_t>(-1);
 
-/// What is known of n rows before their variance is: Var(row i) = s_g · shape_i with g = group_i, s_g to be estimated.
+/// The known facts about n rows with unknown variances: Var(row i) = s_g · shape_i with g = group_i, s_g to be
+/// estimated.
 struct VarianceProblem {
-  Eigen::MatrixXd columns;         ///< n × k, of full rank: whatever the rows may show beside noise
+  Eigen::MatrixXd columns;         ///< n × k, of full rank: all that the rows may show besides noise
   Eigen::VectorXd residuals;       ///< n
   std::vector<std::size_t> group;  ///< n; 0, 1, …, or `known_variance`
   Eigen::VectorXd shape;           ///< n; variance up to the factor of the group
@@ -29,7 +30,7 @@ struct VarianceProblem {
 /// (H. D. Patterson, R. Thompson, Biometrika 58:545, 1971), solved by scaling s_g with the ratio of the two sides.
 struct RestrictedVariance {
   std::vector<double> variance;  ///< s_g; 1 where a group has no row
-  std::vector<double> freedom;   ///< by group; 0 where the columns leave nothing of its rows
+  std::vector<double> freedom;   ///< by group; 0 if the columns fit all of its rows
   std::vector<bool> at_least;    ///< groups that ended at their least value
   Eigen::VectorXd remainder;     ///< e, of rows with variance one
   Eigen::VectorXd leverage;      ///< 1 − P_ii
@@ -37,8 +38,8 @@ struct RestrictedVariance {
 };
 RestrictedVariance restricted_variance(const VarianceProblem& problem, std::size_t steps = 40);
 
-/// The step that all values are multiples of, to within their own digits; 0 where there is none that is coarse enough
-/// to be seen: at least one value in four occurs twice. Rounding to a step q is an error of q/√12.
+/// The step of which all values are multiples, to within their own digits; 0 if no step is coarse enough to be seen. A
+/// visible step makes at least one value in four occur twice. Rounding to a step q has the standard error q/√12.
 double value_step(std::span<const double> values);
 
 }  // namespace tunica::assembly

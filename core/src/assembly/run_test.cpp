@@ -11,7 +11,7 @@
 namespace tunica::assembly {
 namespace {
 
-/// Whether a parameter that has to rest at its null for exact derivatives along a path is free, or rests elsewhere.
+/// Whether a parameter is free, or held away from its null, although exact derivatives along a path require the null.
 bool off_the_path(const RunTest& test) {
   const TestDescription& description = test.test->describe();
   for (const std::string& name : description.path_exceptions)
@@ -31,8 +31,8 @@ bool has_derivatives(const RunTest& test, const ModelDescription& model) {
   return model.axis_history_size > 0 && test.test->describe().path_derivatives && !off_the_path(test);
 }
 
-/// A test that simulates J = 1 cannot carry a model that changes its volume, nor one that changes it a model that does
-/// not.
+/// A test that assumes J = 1 takes only incompressible models; a test that changes the volume takes only compressible
+/// ones.
 void refuse_volume(const RunTest& test, const RunModel& model) {
   using Volume = TestDescription::Volume;
   const ModelDescription& description = model.model->describe();
@@ -94,7 +94,7 @@ void chain_parameters(RunTest& test, std::size_t free_count) {
     if (!first[index]) {
       test.untouched.push_back(index);
     } else {
-      // Differences fill rows in free order instead of slot order; there are never more of them than slots.
+      // Differences fill rows in the order of free parameters, not of slots; there are never more rows than slots.
       test.columns.emplace_back(index, test.differenced ? test.columns.size() : *first[index]);
     }
   }

@@ -14,7 +14,7 @@
 
 namespace tunica::assembly {
 
-/// One test of the run, with everything an evaluation needs worked out beforehand.
+/// One test of the run, with everything that can be computed before an evaluation.
 struct RunTest {
   std::string name;
   std::unique_ptr<Test> test;
@@ -38,11 +38,11 @@ struct RunTest {
   [[nodiscard]] std::size_t slots() const { return materials.values.size() + own.values.size(); }
 };
 
-/// Gives a test its models, in its state: that of the run, or one a layer; layers that share one have a copy of its
-/// parameters each. Models of one state stand in the same order in every state.
+/// Gives a test its models, in its state: the model of the run, or one per layer. Layers that share a model have one
+/// copy of its parameters each. The order of models is the same in every state.
 void assign_models(RunTest& test, const experiment::TestEntry& entry, const std::vector<RunModel>& models);
 
-/// Fills the chain rule, once models and own parameters are in place.
+/// Fills the chain rule after models and own parameters are set.
 void chain_parameters(RunTest& test, std::size_t free_count);
 
 }  // namespace tunica::assembly

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double trusted = 0.7;  ///< largest part of a change of the values that an updated Jacobian may miss
 
-/// Channels differ in units: each is measured by its own largest value.
+/// Channels differ in units, so each is scaled by its own largest value.
 double channel_size(std::span<const double> values) {
   double largest = 0;
   for (const double value : values) largest = std::max(largest, std::abs(value));
@@ -47,7 +47,7 @@ bool update_secant(SecantPoint& point, const RunTest& test, std::span<const Free
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t i = 0; i < size; ++i) missed[i] -= point.jacobian[j * size + i] * step[j];
   for (std::size_t i = 0; i < size; ++i) error += std::pow(missed[i] / sizes[i / test.rows], 2);
-  // Below the step of the differences, changes of the values are the simulation's rounding.
+  // Below the step of the differences, changes of the values are only rounding of the simulation.
   const double least = test.test->describe().differencing->step;
   const bool near = length <= least * least;
   if (near) return true;  // the point stays: short steps add up until they are worth an update

@@ -19,18 +19,18 @@ struct SecantPoint {
   double least = 0;              ///< smallest cost of the test that the search has seen
 };
 
-/// What one search remembers of tests without derivatives, by test. It belongs to a search, not to a thread, so that
-/// results are the same for any number of threads.
+/// One search's memory of tests without derivatives, by test. It belongs to a search, not to a thread, so results do
+/// not depend on the number of threads.
 struct SecantMemory {
   std::vector<SecantPoint> tests;
 };
 
-/// The length that a change of the parameter is measured by: |p|, on a linear scale at least a hundredth of its range.
+/// The length scale of a change of the parameter: |p|, but on a linear scale at least a hundredth of its range.
 double parameter_scale(double value, const FreeParameter& parameter);
 
-/// Moves `point` to the values predicted at `at` by Broyden's update. False where the Jacobian has to be taken anew: it
-/// predicted the change of the values badly, or has been updated often. Where the cost has risen it is not worth that:
-/// a search turns back from there, and the point stays.
+/// Moves `point` to the values predicted at `at` by Broyden's update. Returns false if the Jacobian must be computed
+/// anew, because it predicted the change of the values badly or was updated often. If the cost has risen, the point
+/// stays: a search turns back from there, and a new Jacobian would be wasted.
 bool update_secant(SecantPoint& point, const RunTest& test, std::span<const FreeParameter> parameters,
                    std::span<const double> at, std::span<const double> values, double cost);
 

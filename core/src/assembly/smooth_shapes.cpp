@@ -45,7 +45,7 @@ std::vector<std::size_t> turns_of(const std::vector<double>& x, const Rows& rows
   return turns;
 }
 
-/// 1 where x goes one way along the branch, near 0 where it only trembles.
+/// 1 if x is monotonic along the branch, near 0 if it only jitters.
 double straightness(const std::vector<double>& x, const Rows& branch) {
   double travelled = 0;
   for (std::size_t k = 1; k < branch.size(); ++k) travelled += std::abs(x[branch[k]] - x[branch[k - 1]]);
@@ -67,7 +67,7 @@ std::vector<Rows> branches_of(const Rows& rows, const Abscissae& abscissae) {
   return branches;
 }
 
-/// Squares that are left of a branch with 0, 1, … `most_terms` Chebyshev polynomials; as many as half the rows allow.
+/// Residual sums of squares of a branch with 0, 1, … `most_terms` Chebyshev polynomials, as far as half the rows allow.
 std::array<double, most_terms + 1> squares_left(std::span<const double> values, const Abscissae& abscissae,
                                                 const Rows& branch) {
   const auto n = static_cast<Eigen::Index>(branch.size());

@@ -8,7 +8,7 @@ namespace {
 
 using experiment::ParameterSetting;
 
-/// What the file says of a parameter in the state, and where it is silent, of the parameter in the model.
+/// The parameter's setting in the state; keys that the state lacks come from the setting in the model.
 ParameterSetting together(const ParameterSetting& in_state, const Slot& slot) {
   ParameterSetting all = in_state;
   if (all.fixed) return all;
@@ -19,12 +19,12 @@ ParameterSetting together(const ParameterSetting& in_state, const Slot& slot) {
   all.max = in_state.max.value_or(of_model.max.value_or(declared.max));
   if (!all.scale) all.scale = of_model.scale.value_or(declared.scale);
   if (!all.initial) all.initial = of_model.initial.value_or(of_model.fixed.value_or(declared.initial));
-  // A start of the model that the state's bounds exclude is nobody's choice.
+  // If the state's bounds exclude the model's initial value, that value is not the user's choice.
   if (!all.own_initial && *all.min < *all.max) all.initial = std::clamp(*all.initial, *all.min, *all.max);
   return all;
 }
 
-/// How a state may name a parameter of a model: with the model's name, which counts before the one without it.
+/// The names that a state may use for a parameter of a model. The name with the model's name takes precedence.
 std::vector<std::string> names_of(const std::string& parameter, const std::string& model) {
   const std::string prefix = model + ".";
   if (parameter.starts_with(prefix)) return {parameter, parameter.substr(prefix.size())};

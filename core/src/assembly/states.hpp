@@ -12,10 +12,10 @@
 
 namespace tunica::assembly {
 
-/// The slots of the model called `model` in a state: those of the owner number `owner`, `bare`, with its own value
-/// where the state says so, with the model's name or without it. What the state leaves open, bounds and scale, are
-/// those of the model. `settings` keeps what the file and the model say together, and `differing` gets what differs.
-/// Names of the state that are of a parameter of this model leave `unread`.
+/// The slots of the model called `model` in a state. They are the slots `bare` of owner number `owner`, with separate
+/// values for the parameters that the state names, with or without the model's name. Bounds and scale that the state
+/// omits are those of the model. `settings` keeps the merged settings of file and model, and `differing` receives the
+/// parameters that differ. Names in the state that match a parameter of this model are removed from `unread`.
 std::vector<Slot> slots_in(const experiment::StateEntry& state, const std::string& model, const std::vector<Slot>& bare,
                            std::size_t owner, std::deque<experiment::ParameterSetting>& settings,
                            std::vector<Differing>& differing, std::set<std::string>& unread);

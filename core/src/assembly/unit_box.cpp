@@ -63,7 +63,7 @@ double UnitBox::slope(std::size_t parameter, double value) const {
 }
 
 void UnitBox::jacobian_to_unit(std::span<const double> free, std::span<double> jacobian) const {
-  // A few columns at a time, so that their slopes need no allocation.
+  // A few columns at a time: their slopes then need no allocation.
   constexpr std::size_t most = 16;
   double slopes[most];
   const std::size_t n = axes_.size();

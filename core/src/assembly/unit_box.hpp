@@ -14,7 +14,7 @@ class UnitBox {
  public:
   explicit UnitBox(const std::vector<FreeParameter>& parameters);
 
-  /// The part of the box between two corners of it, as a unit box of its own.
+  /// The part of the box between two corners, as a new unit box.
   [[nodiscard]] UnitBox between(std::span<const double> lower, std::span<const double> upper) const;
 
   void from_unit(std::span<const double> x, std::span<double> free) const;

@@ -10,14 +10,14 @@
 namespace tunica::assembly {
 namespace {
 
-/// A channel of weight 0 is predicted, and says nothing about the parameters.
+/// A channel of weight 0 is predicted, but does not inform the parameters.
 bool counts(const MeasuredChannel& view) { return view.weight > 0; }
 
 std::size_t fitted_rows(const MeasuredChannel& view) {
   return static_cast<std::size_t>(std::count(view.fitted.begin(), view.fitted.end(), true));
 }
 
-/// σ of the rows of a channel without a statement: those the fit weighs by, times √(Σ(e/σ)²/(count (1 − n/rows))).
+/// σ of the rows of a channel without stated noise: the σ of the fit, times √(Σ(e/σ)²/(count (1 − n/rows))).
 std::vector<double> deviations_about(const MeasuredChannel& view, std::span<const double> measured,
                                      std::span<const double> predictions, double share_left) {
   std::vector<double> sd = view.sigma.rows.sd;

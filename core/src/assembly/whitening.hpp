@@ -9,8 +9,8 @@
 
 namespace tunica::assembly {
 
-/// The rows that say something about the parameters, with the noise they are taken to have: what intervals, profiles
-/// and bootstrap share. Channels of weight 0 are left out; other weights do not enter, for they are no noise.
+/// The rows that inform the parameters, with their assumed noise. Intervals, profiles and bootstrap share them.
+/// Channels of weight 0 are left out; other weights are ignored because they do not describe noise.
 struct Whitening {
   struct Row {
     std::size_t prediction;  ///< position among all predictions
@@ -30,18 +30,17 @@ struct Whitening {
 
   [[nodiscard]] std::size_t count() const { return rows.size() + priors.size(); }
   [[nodiscard]] std::size_t channels() const { return first.size() - 1; }
-  /// 97.5 % point of standardised errors: of the normal distribution where all noise is stated and nothing
-  /// contradicts it, else of Student's t with so many degrees of freedom as rows exceed `parameters`.
+  /// The 97.5 % point of standardised errors. It is that of the normal distribution if all noise is stated and not
+  /// contradicted. Otherwise it is that of Student's t, with rows minus `parameters` degrees of freedom.
   [[nodiscard]] double quantile(std::size_t parameters) const;
 };
 
-/// `predictions` at the best point. A stated σ is believed unless χ² contradicts it. Of a channel without a statement
-/// the σ that the fit weighs by is multiplied by √(χ²/ν) of the channel, of which it pays its share of the n
-/// parameters, ν = count (1 − n/rows); a perfect fit is no licence for infinite weight, so that σ is at least 1e-9 of
-/// the largest value. `believe`: a stated σ stays as it is, for points that
-/// are no fits. To be made once, at the point that a run ended at: what follows (intervals, profiles, draws)
-/// keeps it. No row where nothing is fitted. `measured` in the layout of the predictions stands in for the data unless
-/// empty.
+/// `predictions` are those at the best point. A stated σ holds unless χ² contradicts it. In a channel without stated
+/// noise, the σ of the fit is multiplied by the channel's √(χ²/ν) with ν = count (1 − n/rows): each channel loses its
+/// share of n degrees of freedom. σ is at least 1e-9 of the largest value, so that a perfect fit has no infinite
+/// weight. `believe`: a stated σ never changes, for points that are not fits. Make it once, at the final point of a
+/// run; intervals, profiles and draws then keep it. It has no row if nothing is fitted. `measured`, in the layout of
+/// the predictions, replaces the data unless empty.
 Whitening whitening(const Assembly& assembly, std::span<const double> predictions,
                     std::span<const double> measured = {}, bool believe = false);
 
