@@ -23,9 +23,9 @@ struct CalibrationProblem::Parts {
   Settings settings;
   SharedState shared;
   Oracle oracle;
-  std::optional<std::uint64_t> paired = settings.paired_starts;  ///< none once it was used
+  std::optional<std::uint64_t> paired = settings.paired_starts;  ///< none after use
 
-  /// Hands one evaluation out; its index is that of `ledger` before it was counted there.
+  /// Returns the result of one evaluation; its index is the count of `ledger` before this evaluation.
   void record(const Evaluations& made, std::size_t slot, std::uint64_t index) const {
     if (!settings.record) return;
     const std::size_t n = shared.parameters, tests = shared.tests;
@@ -38,7 +38,7 @@ struct CalibrationProblem::Parts {
     if (!made.contradiction.empty() && made.contradicted == slot) throw plugins::HostFault(made.contradiction);
   }
 
-  /// What the search has just counted goes to the record.
+  /// Passes newly counted evaluations to the record.
   void deliver() {
     Evaluations& made = oracle.made;
     const std::uint64_t first = oracle.ledger.next_index() - made.size();
@@ -49,7 +49,7 @@ struct CalibrationProblem::Parts {
     made.clear();
   }
 
-  /// What a start evaluated is counted here as if it had been asked for here, up to where the search stops.
+  /// Counts the evaluations of a start as if this problem had made them, up to the stop of the search.
   void merge(const Evaluations& made) {
     const std::size_t n = shared.parameters;
     for (const Evaluations::Call& call : made.calls) {
@@ -122,7 +122,7 @@ Status CalibrationProblem::constraints(std::span<const double> x, std::span<doub
 
 std::size_t CalibrationProblem::for_each_start(std::size_t count,
                                                const std::function<void(std::size_t, Problem&)>& body) {
-  // Later searches go on where earlier ones ended, or replace them: only the first can be paired.
+  // Later searches continue or replace earlier ones, so only the first can be paired.
   const auto paired = std::exchange(parts_->paired, std::nullopt);
   return Starts(parts_->shared, parts_->oracle, [this](const Evaluations& made) { parts_->merge(made); })
       .run(count, parts_->settings.seed, paired, body);

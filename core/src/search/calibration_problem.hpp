@@ -27,13 +27,13 @@ struct Record {
   bool ended_early = false;  ///< the objective is a lower bound, see Problem::evaluate_best
 };
 
-/// Whether one point is strictly better than another: the less violation, the less objective.
+/// Whether one point is strictly better than another: a smaller violation, or at equal violations a smaller objective.
 inline bool is_better(double objective, double violation, double than_objective, double than_violation) {
   return violation != than_violation ? violation < than_violation : objective < than_objective;
 }
 
-/// What the best evaluated point is, at any time: the feasible one of least objective; while none is feasible, the
-/// one of least violation.
+/// The best point so far: the feasible one with the smallest objective, or the one with the smallest violation while
+/// none is feasible.
 struct Best {
   std::vector<double> parameters;  ///< empty: nothing succeeded yet
   double objective = 0;
@@ -42,17 +42,17 @@ struct Best {
 
   [[nodiscard]] bool found() const { return !parameters.empty(); }
   [[nodiscard]] bool feasible() const { return found() && violation == 0; }
-  /// Strictly better than another, so that of equals the first stays.
+  /// Strictly better than another. The first of equal points therefore stays.
   [[nodiscard]] bool better_than(const Best& other) const {
     if (!found() || !other.found()) return found() && !other.found();
     return is_better(objective, violation, other.objective, other.violation);
   }
 };
 
-/// A journal of evaluations that were already made, in index order, for resuming: returns false when it has none
-/// at this index, and then never at a later one. The problem checks that the parameters are bit-identical and throws
-/// std::runtime_error if not; where residuals are asked for it evaluates again and checks the objective instead.
-/// Called from one thread at a time; an index may be asked for twice.
+/// A journal of earlier evaluations in index order, for resuming. It returns false if it has no entry at this index,
+/// and then has none at a later index either. The problem checks that the parameters are bit-identical, and throws
+/// std::runtime_error otherwise. If residuals are requested, it evaluates again and checks the objective instead. It is
+/// called from one thread at a time, possibly twice for one index.
 struct JournalEntry {
   std::vector<double> parameters, per_test;
   double objective;
@@ -62,7 +62,7 @@ struct JournalEntry {
 };
 using Replay = std::function<bool(std::uint64_t index, JournalEntry& entry)>;
 
-/// Failures whose reasons differ in numbers only.
+/// Failures whose reasons differ only in numbers.
 struct FailureKind {
   std::string example;  ///< the first of them
   std::uint64_t count = 0;
@@ -95,15 +95,15 @@ struct Tally {
   void add(const Tally& part);
 };
 
-/// The host's Problem: counts, keeps the best, enforces the stop block and the failure policy, records every
-/// evaluation in index order, replays a journal. One object per realisation and stage; stop.max_evaluations and
-/// stop.stall count its own evaluations.
+/// The host's Problem. It counts evaluations, keeps the best, enforces the stop block and the failure policy, records
+/// every evaluation in index order, and replays a journal. There is one object per realisation and stage;
+/// stop.max_evaluations and stop.stall count only its evaluations.
 ///
-/// A batch counts whole, up to the budget: a target or a stall in the middle of one refuses what comes after it, so
-/// that results do not depend on threads. Starts run side by side and are merged as if one after the other
-/// (starts.hpp); a start's evaluations() and budget() are its own, from what was left when its block began. Only
-/// max_time and an interruption depend on the clock. What is recorded then is a prefix of what would have been, but for
-/// the last batch before max_time: what it did not come to simulate counts as ended early.
+/// A batch counts as a whole, up to the budget. If it meets the target or stalls within a batch, the search refuses
+/// only later batches, so results do not depend on threads. Starts run in parallel and are merged in order
+/// (starts.hpp). A start has its own evaluations() and budget(), from the budget that remained when its block began.
+/// Only max_time and an interruption depend on the clock. The record is then a prefix of the full record, except for
+/// the last batch before max_time: points that were not simulated in it count as ended early.
 class CalibrationProblem : public Problem {
  public:
   struct Settings {
@@ -112,8 +112,8 @@ class CalibrationProblem : public Problem {
     double max_failure_rate = 1;
     std::uint64_t seed = 0;     ///< of the realisation
     std::vector<double> start;  ///< unit box; empty = the parameters' initial values
-    /// Where given, the second and later of independent searches begin at points that depend on this number alone:
-    /// their problems' start() is that point.
+    /// If set, the second and later independent searches begin at points that depend only on this number. start() of
+    /// their problems returns that point.
     std::optional<std::uint64_t> paired_starts = {};
     std::function<void(const Record&)> record = {};  ///< called in index order, never concurrently
     Replay replay = {};
@@ -122,15 +122,15 @@ class CalibrationProblem : public Problem {
     double elapsed_before = 0;               ///< s, counted against max_time
     bool skip_costly = false;                ///< at infeasible points, see CostlyTests
     const Correction* correction = nullptr;  ///< of the residuals, and the part of the box that is searched
-    bool end_early = false;                  ///< evaluations in evaluate_best() that cheap tests decide
+    bool end_early = false;                  ///< evaluations in evaluate_best() if cheap tests decide them
   };
   CalibrationProblem(const assembly::Assembly& assembly, Settings settings);
   ~CalibrationProblem() override;
 
   [[nodiscard]] const Best& best() const;
   [[nodiscard]] const Tally& tally() const;
-  [[nodiscard]] StopReason stop_reason() const;            ///< none: nothing of the stop block ended it
-  [[nodiscard]] const std::string& stop_sentence() const;  ///< the same for people; empty for none
+  [[nodiscard]] StopReason stop_reason() const;            ///< none: no rule of the stop block ended it
+  [[nodiscard]] const std::string& stop_sentence() const;  ///< the same as a sentence; empty for none
 
   // Problem
   [[nodiscard]] std::size_t dimension() const override;

@@ -13,10 +13,10 @@ struct ConstrainedStep {
   double largest_multiplier = 0;  ///< of ‖·‖² by c
 };
 
-/// None where the inequalities contradict each other. Directions that J does not see stay short: a ridge of 1e-3.
+/// None if the inequalities contradict each other. A ridge of 1e-3 keeps the step short in the null space of J.
 ///
-/// As a least distance problem by way of non-negative least squares. Source: C. L. Lawson, R. J. Hanson, Solving Least
-/// Squares Problems (1974), chapter 23, algorithms NNLS and LDP.
+/// It is solved as a least-distance problem by non-negative least squares. Source: C. L. Lawson, R. J. Hanson, Solving
+/// Least Squares Problems (1974), chapter 23, algorithms NNLS and LDP.
 std::optional<ConstrainedStep> constrained_step(const Eigen::MatrixXd& J, const Eigen::VectorXd& r,
                                                 const Eigen::MatrixXd& A, const Eigen::VectorXd& c);
 

@@ -8,12 +8,12 @@
 
 namespace tunica::search {
 
-/// A first-order additive correction of residuals r_g that stand in for others, r_f, around a centre x₀:
+/// A first-order additive correction of residuals r_g, which replace the residuals r_f, around a centre x₀:
 ///
 ///     r(x) = r_g(x) + [r_f(x₀) − r_g(x₀)] + [J_f(x₀) − J_g(x₀)] (x − x₀),
 ///
-/// so that values and derivatives at x₀ are those of r_f. x is in the unit box of the whole search; it is used between
-/// two corners, the trust region, which the search sees as its unit box.
+/// Values and derivatives at x₀ are then those of r_f. x is in the unit box of the whole search. It stays between the
+/// two corners of the trust region, which is the unit box of the corrected search.
 ///
 /// Source: N. M. Alexandrov, R. M. Lewis, C. R. Gumbert, L. L. Green, P. A. Newman, Approximation and model management
 /// in aerodynamic optimization with variable-fidelity models, J. Aircraft 38 (2001) 1093-1101, section 3.

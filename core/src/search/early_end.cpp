@@ -28,7 +28,7 @@ void EarlyEnd::begin(std::size_t best) {
 }
 
 bool EarlyEnd::is_complete() const {
-  // Of fewer points the best-th lowest is higher, so that nothing is left out too early.
+  // Among fewer points the best-th lowest objective is higher, so no point is left out too early.
   return taken_ == order_.size() || !lowest_.admits(order_[taken_].first);
 }
 

@@ -10,36 +10,38 @@
 
 namespace tunica::search {
 
-/// Which points of a batch are simulated in full where only the `best` lowest objectives are wanted, and a lower bound
-/// of each is known from its cheap tests.
+/// Decides which points of a batch are simulated in full, if only the `best` lowest objectives are wanted. The cheap
+/// tests of each point give a lower bound of its objective.
 ///
-/// Points are taken in the order of their bounds. The rule ends where the next bound exceeds the best-th lowest
-/// objective of the points before it: no other point can be among the lowest. A thread does not wait for what others
-/// still simulate, so it may take points too many. left() names them too, and what they gave is to be forgotten. So
-/// what counts depends on the numbers alone, and is the same for any number of threads.
+/// Points are taken in the order of their bounds. The rule stops when the next bound exceeds the best-th lowest
+/// objective of the points before it: no other point can then be among the lowest. A thread does not wait for
+/// simulations of other threads, so it may take too many points. left() also names these, and their results must be
+/// discarded. The counted points therefore depend only on the numbers, and are the same for any number of threads.
 ///
 /// take() and found() may be called from any thread, the others from one.
 class EarlyEnd {
  public:
   /// Forgets the last batch.
   void clear();
-  /// A point that can be evaluated and is feasible, with its lower bound.
+  /// Adds a feasible point without failure, with its lower bound.
   void add(std::size_t point, double bound) { order_.emplace_back(bound, point); }
-  /// All points are there, and the `best` lowest of them are wanted.
+  /// All points are added; the `best` lowest of them are wanted.
   void begin(std::size_t best);
   [[nodiscard]] std::size_t size() const { return order_.size(); }
 
   struct Taken {
     std::size_t point, place;  ///< its place in the order of the bounds
   };
-  /// What to simulate next; nothing when the rest cannot be among the lowest.
+  /// The next point to simulate; none if no remaining point can be among the lowest.
   std::optional<Taken> take();
-  /// What the simulation gave; nothing where it failed or the point is infeasible.
+  /// The objective from the simulation; none if it failed or the point is infeasible.
   void found(Taken taken, std::optional<double> objective);
 
-  /// Once no thread simulates: whether the rest cannot be among the lowest. Else the work was ended before.
+  /// Call it when no thread simulates any more. Whether no remaining point can be among the lowest; otherwise the work
+  /// ended early.
   [[nodiscard]] bool is_complete() const;
-  /// Once no thread simulates: the points that cannot be among the lowest; the first `needless` of them were taken.
+  /// Call it when no thread simulates any more. The points that cannot be among the lowest; the first `needless` of
+  /// them were simulated.
   std::span<const std::size_t> left();
   [[nodiscard]] std::size_t needless() const { return needless_; }
 
@@ -49,8 +51,8 @@ class EarlyEnd {
    public:
     explicit Lowest(std::size_t best) : best_(best) {}
     void add(double objective);
-    /// Whether a point of this bound may belong to them. Equal to the last is not above it: of equals the earlier point
-    /// ranks first.
+    /// Whether a point with this bound may belong to them. A bound equal to the last one may: among equals the earlier
+    /// point ranks first.
     [[nodiscard]] bool admits(double bound) const { return values_.size() < best_ || bound <= values_.front(); }
 
    private:

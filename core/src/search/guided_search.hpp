@@ -24,9 +24,9 @@ namespace tunica::search {
 ///      turn promised less than `promise` of the objective (and `perfect`, for perfect fits). Such a search costs no
 ///      simulation; the next one has a quarter of Δ, where random numbers find more.
 ///
-/// Values and derivatives of the corrected problem are those of the costly one at every centre, so that the end is a
-/// stationary point of the costly problem: of it alone are all points that count, and the answer. Which of several
-/// minima it is near depends on the cheap problem.
+/// Values and derivatives of the corrected problem equal those of the costly one at every centre. The search therefore
+/// ends at a stationary point of the costly problem. All counted points and the answer belong to the costly problem.
+/// The cheap problem only determines which of several minima is found.
 ///
 /// Source: Alexandrov et al. (2001), see correction.hpp; the rule for Δ after A. R. Conn, N. I. M. Gould, Ph. L. Toint,
 /// Trust-Region Methods (2000), algorithm 6.1.1.
@@ -34,7 +34,7 @@ class GuidedSearch {
  public:
   static constexpr double first_radius = 0.25, least_radius = 1e-7, promise = 1e-8, perfect = 1e-14;
   static constexpr int most_rounds = 40, most_idle = 3;
-  /// Evaluations of a corrected search: a tenth of the limit of the whole, at least so many.
+  /// Evaluations of a corrected search: a tenth of the limit of the whole search, but at least this many.
   static constexpr std::uint64_t least_evaluations = 4000;
 
   /// Minimises with a new object of the chosen optimizer.
@@ -51,7 +51,7 @@ class GuidedSearch {
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
  private:
-  /// A point of the unit box with all that is known of the costly problem there.
+  /// A point of the unit box with all known values of the costly problem there.
   struct Linearised {
     std::vector<double> x, residuals, jacobian;
     double objective = 0, violation = 0;

@@ -89,7 +89,7 @@ void Ledger::add(std::span<const double> parameters, double objective, const Sta
       improved_at_ = tally_.evaluations;
     }
   }
-  // What ended early is not the best, and says nothing of it.
+  // An evaluation that ended early is never the best, and does not change the best.
   const bool reached = status.ok() && extent != Extent::ended_early && best_.feasible();
   if (reached && rules_.stop.target && best_.objective <= *rules_.stop.target) stop(StopReason::target);
   check_failures(status);

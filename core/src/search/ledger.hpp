@@ -12,7 +12,7 @@
 
 namespace tunica::search {
 
-/// How much of an evaluation was done.
+/// Which part of an evaluation was done.
 enum class Extent {
   whole,
   without_costly_tests,  ///< of an infeasible point
@@ -37,7 +37,7 @@ class Ledger {
     experiment::OnFailure on_failure = experiment::OnFailure::penalise;
     double max_failure_rate = 1;
     std::uint64_t first_index = 0;
-    /// The rules that look at a whole run, not at a part of it: failure rate, nothing succeeded.
+    /// The rules that apply only to a whole run: failure rate, nothing succeeded.
     bool whole_run = true;
   };
   static constexpr std::uint64_t rate_counts_from = 100, nothing_succeeded_after = 200;
@@ -46,7 +46,7 @@ class Ledger {
 
   void add(std::span<const double> parameters, double objective, const Status& status, bool jacobian,
            Extent extent = Extent::whole);
-  /// Stops for a reason from outside, as max_time and interrupted are. The first reason stays. The sentence is for
+  /// Stops for an external reason, such as max_time or interrupted. The first reason is kept. The sentence is for
   /// people; without one it is the code of the reason.
   void stop(StopReason reason, std::string sentence = {});
   void add_start(std::span<const double> x, double objective) { tally_.add_start(x, objective); }
@@ -59,9 +59,9 @@ class Ledger {
   [[nodiscard]] std::uint64_t next_index() const { return rules_.first_index + tally_.evaluations; }
   [[nodiscard]] std::uint64_t budget() const;
 
-  /// A ledger for one of several searches side by side, none of which knows how many evaluations precede it. It stops
-  /// only where this one, adding them one search after the other, has stopped by then: it knows the best so far, and
-  /// begins its counts at zero with what is left of the budget.
+  /// A ledger for one of several parallel searches, none of which knows how many evaluations precede it. It knows the
+  /// best so far, and begins its counts at zero with the rest of the budget. It therefore never stops before this
+  /// ledger would stop after adding the searches in order.
   [[nodiscard]] Ledger for_one_start() const;
 
  private:

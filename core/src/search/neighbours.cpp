@@ -28,11 +28,11 @@ struct Neighbour {
   std::vector<double> free;
   Status status;
   double objective = 0;
-  bool left_out = false;  ///< for time was over
+  bool left_out = false;  ///< because time was over
   bool simulated = true;  ///< false: the objective is a lower bound, and another neighbour is lower
 };
 
-/// Eigenvectors of JᵀJ; none where the Jacobian cannot be had.
+/// Eigenvectors of JᵀJ; none if the Jacobian is not available.
 void add_principal_directions(const assembly::Assembly& assembly, std::span<const double> free,
                               std::vector<Direction>& directions) {
   const std::size_t n = free.size(), m = assembly.layout().residual_count;
@@ -82,8 +82,8 @@ std::vector<Neighbour> neighbours_of(const assembly::Assembly& assembly, std::sp
   return found;
 }
 
-/// Side by side. Only the lowest counts: where its cheap tests put a neighbour above another one, and where it is
-/// infeasible, costly tests are left out.
+/// Neighbours are evaluated in parallel. Only the lowest counts. Costly tests are therefore left out for an infeasible
+/// neighbour, and for one whose cheap tests alone exceed another neighbour.
 void evaluate_neighbours(const assembly::Assembly& assembly, std::vector<Neighbour>& neighbours,
                          plugins::Clock::time_point deadline) {
   const auto evaluate = [&](Neighbour& neighbour, assembly::CostlyTests costly) {

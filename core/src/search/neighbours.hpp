@@ -13,9 +13,9 @@
 
 namespace tunica::search {
 
-/// What lies around a point that claims to be an optimum.
+/// The neighbourhood of a supposed optimum.
 struct Neighbourhood {
-  /// The least feasible objective among the neighbours, and where it is.
+  /// The lowest feasible objective among the neighbours, and its place.
   struct Lowest {
     double objective = 0, step = 0;  ///< signed, in the unit box; 0: a local search ended there
     std::string along;               ///< a parameter, or "direction 2 of the residuals' curvature"
@@ -34,15 +34,15 @@ struct Neighbourhood {
 constexpr double neighbour_steps[] = {1e-3, 1e-5};  ///< of the unit box
 constexpr double active_margin = 1e-3;
 
-/// Objectives that differ by less are the same: |a − b| ≤ 1e-9 |b| + 1e-12. The absolute part is for perfect fits of
-/// synthetic data, whose objectives are rounding.
+/// Objectives that differ by less count as equal: |a − b| ≤ 1e-9 |b| + 1e-12. The absolute part is for perfect fits of
+/// synthetic data, whose objectives are only rounding errors.
 bool same_objective(double a, double b);
 
 /// Evaluates the point, and its neighbours at ± the steps above along every parameter and along the eigenvectors of JᵀJ
 /// in the unit box, J the Jacobian of the residuals as the objective weighs them. These span the long and the short
-/// axes of the valley that the point lies in: an optimiser that stopped half-way down a bent one is found out along
-/// them. Neighbours outside the bounds are moved onto them; what breaks a constraint does not count. The point itself
-/// is evaluated whatever it takes; at the deadline neighbours are left out.
+/// axes of the valley around the point. They reveal an optimiser that stopped half-way down a curved valley. Neighbours
+/// outside the bounds are moved onto them; neighbours that violate a constraint do not count. The point itself is
+/// always evaluated; after the deadline neighbours are left out.
 Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<const double> free,
                                   plugins::Clock::time_point deadline = plugins::Clock::time_point::max());
 

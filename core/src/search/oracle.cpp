@@ -22,7 +22,7 @@ namespace {
 
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-/// Coordinates may leave the unit box by rounding, no further.
+/// Coordinates may leave the unit box only by rounding.
 constexpr double rounding = 1e-9;
 
 Status check_point(std::span<const double> x) {
@@ -141,7 +141,7 @@ bool Oracle::replay(std::span<const double> x, std::size_t slot) {
   return true;
 }
 
-/// The evaluation proper; touches nothing but its slot, so that slots run side by side.
+/// The evaluation proper. It writes only to its slot, so slots run in parallel.
 Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::span<double> residuals,
                            std::span<double> jacobian, assembly::Workspace& workspace, bool bound_only) {
   const std::size_t n = shared_.parameters, tests = shared_.tests;
@@ -224,10 +224,10 @@ Status Oracle::evaluate(std::span<const double> x, double& objective) {
 std::size_t Oracle::evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
                                    bool bound_only) {
   const std::size_t n = shared_.parameters, count = points.size();
-  // Cheap points come several at a time, so that a thread is worth calling.
+  // Cheap points come in groups, because a single one is not worth a thread.
   const std::size_t least = bound_only || !shared_.assembly.layout().has_costly_tests ? 4 : 1;
   const std::size_t workers = workers_for((count + least - 1) / least);
-  // Each worker takes half of its share of what is left, down to one point, so that all end within one evaluation
+  // Each worker takes half of its share of the rest, down to one point. All workers then end within one evaluation
   // (guided self-scheduling: C. D. Polychronopoulos, D. J. Kuck, IEEE Trans. Comput. 36 (1987) 1425).
   std::atomic<std::size_t> next = 0, end = count;
   const auto work = [&] {
@@ -253,7 +253,7 @@ std::size_t Oracle::evaluate_slots(std::span<const double> xs, std::size_t first
   return end;
 }
 
-/// In the order of their lower bounds, until the rest cannot be among the lowest.
+/// In the order of their lower bounds, until no remaining point can be among the lowest.
 void Oracle::simulate_early(std::span<const double> xs, const Evaluations::Call& call, std::size_t replayed) {
   const std::size_t n = shared_.parameters;
   on_workers(workers_for(early_.size()), [&] {
@@ -275,12 +275,12 @@ std::size_t Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best
   points_.resize(call.size - replayed);
   std::iota(points_.begin(), points_.end(), replayed);
   const auto& settings = shared_.settings;
-  // Other policies than to go on past failures look at failures that a lower bound would hide.
+  // A lower bound would hide failures, so it is used only under the policy that ignores them.
   const bool early = settings.end_early && settings.skip_costly && best < call.size &&
                      shared_.assembly.layout().has_costly_tests && settings.max_failure_rate >= 1 &&
                      settings.on_failure == experiment::OnFailure::penalise;
   if (!early) return replayed + evaluate_slots(xs, call.first, points_, false);
-  // Of replayed points too the bound is made again, as the order of work depends on it.
+  // Bounds of replayed points are computed again, because the order of work depends on them.
   const auto first = static_cast<std::ptrdiff_t>(call.first), known = static_cast<std::ptrdiff_t>(replayed);
   const auto tests = static_cast<std::ptrdiff_t>(shared_.tests);
   const std::vector<double> objectives(made.objectives.begin() + first, made.objectives.begin() + first + known);
@@ -290,7 +290,7 @@ std::size_t Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best
   points_.resize(call.size);
   std::iota(points_.begin(), points_.end(), std::size_t{0});
   const std::size_t bounded = evaluate_slots(xs, call.first, points_, true);
-  // Which points are simulated follows from the bounds of all, and from all that was simulated.
+  // The choice of simulated points depends on the bounds of all points and on all simulated values.
   const auto broken_off = [&](bool incomplete) {
     if (!settings.interrupted || !settings.interrupted()) return false;
     const auto fresh = made.statuses.begin() + first + known;

@@ -26,14 +26,14 @@ class Stopwatch {
   [[nodiscard]] double seconds() const {
     return before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  /// A replayed evaluation was made at `seconds`: the watch is never behind it.
+  /// A replayed evaluation was made at `seconds`. The watch never shows less.
   void catch_up(double seconds) {
     const double late = seconds - this->seconds();
     if (late > 0) before_ += late;
   }
-  /// What an earlier process lost on the way to its end.
+  /// The time between an earlier process's last evaluation and its end.
   void add(double seconds) { before_ += seconds; }
-  /// When it will show `seconds`.
+  /// The time at which it will show `seconds`.
   [[nodiscard]] std::chrono::steady_clock::time_point reaches(double seconds) const {
     using Clock = std::chrono::steady_clock;
     constexpr double far = 1e9;  // s; a clock that counts nanoseconds ends after 292 years
@@ -46,7 +46,7 @@ class Stopwatch {
   std::atomic<double> before_;
 };
 
-/// Workspaces lent to threads. Each task borrows one of its own, also a task that a waiting thread takes in between.
+/// Workspaces lent to threads. Each task borrows its own, even a task that a waiting thread takes meanwhile.
 class WorkspacePool {
  public:
   explicit WorkspacePool(const assembly::Assembly& assembly) : assembly_(assembly) {}
@@ -72,7 +72,7 @@ class WorkspacePool {
   std::vector<assembly::WorkspacePointer> idle_;
 };
 
-/// What all searches of one realisation have in common.
+/// The state that all searches of one realisation share.
 struct SharedState {
   SharedState(const assembly::Assembly& assembly, const CalibrationProblem::Settings& settings);
 
@@ -83,10 +83,10 @@ struct SharedState {
   std::vector<double> start;  ///< unit box
   Stopwatch watch;
   WorkspacePool pool;
-  bool replaying;  ///< the journal has not run out; while true nothing runs side by side
+  bool replaying;  ///< the journal has entries left; while true nothing runs in parallel
 };
 
-/// Evaluations in the order they were asked for, call by call: a call is a batch, or one.
+/// Evaluations in the order of requests, call by call; a call is a batch or a single point.
 struct Evaluations {
   struct Call {
     std::size_t first, size;
@@ -101,18 +101,18 @@ struct Evaluations {
 
   [[nodiscard]] std::size_t size() const { return objectives.size(); }
   void grow(std::size_t count, bool jacobian, std::size_t parameter_count, std::size_t test_count);
-  /// Shortens the last call; to nothing, it is taken back.
+  /// Shortens the last call; a call of length zero is removed.
   void cut_call(std::size_t size, std::size_t parameter_count, std::size_t test_count);
   void clear();
-  /// To so many slots; calls stay.
+  /// Shortens to this many slots; calls stay.
   void resize(std::size_t slots, std::size_t parameter_count, std::size_t test_count);
-  /// How much was done at a slot; it follows from what the journal holds.
+  /// The part of the evaluation that was done at a slot, from the journal's entry.
   [[nodiscard]] Extent extent(std::size_t slot, std::size_t test_count) const;
 };
 
-/// A search through the unit box: checks points, evaluates or replays them, counts, refuses after the stop. What it
-/// evaluated lies in `made` until somebody takes it out. Batches count whole up to the budget: a target or stall in
-/// the middle of one stops what comes after it.
+/// A search through the unit box. It checks points, evaluates or replays them, counts them, and refuses points after
+/// the stop. Evaluations stay in `made` until the caller takes them out. Batches count as a whole up to the budget: a
+/// target or stall within a batch stops only later batches.
 class Oracle {
  public:
   /// `replay_from`: index of the first evaluation in the journal; used only while it lasts.
@@ -141,20 +141,20 @@ class Oracle {
  private:
   Status evaluate_at(std::span<const double> x, std::size_t slot, std::span<double> residuals,
                      std::span<double> jacobian, assembly::Workspace& workspace, bool bound_only = false);
-  /// Evaluates the points side by side. Returns how many of them, in order, are known then: all, unless is_over().
+  /// Evaluates the points in parallel. Returns how many of them, in order, are then known: all, unless is_over().
   std::size_t evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
                              bool bound_only);
-  /// Simulates what early_ asks for; the first `replayed` points of the batch the journal knows.
+  /// Simulates the points that early_ requests; the journal has the first `replayed` points of the batch.
   void simulate_early(std::span<const double> xs, const Evaluations::Call& call, std::size_t replayed);
-  /// Evaluates what the journal does not know of a batch, the first `replayed` points of which it does. Returns how
-  /// many points of the batch, in order, are known then: fewer than all where time was up, or a person ended the work.
+  /// Evaluates the points of a batch after the first `replayed`, which the journal has. Returns how many points of the
+  /// batch, in order, are then known. They are fewer than all if time was up or the user interrupted the work.
   std::size_t evaluate_lowest(std::span<const double> xs, std::size_t best, std::size_t replayed);
   /// Takes evaluation `slot` from the journal; false when it has none. Notes a contradiction.
   bool replay(std::span<const double> x, std::size_t slot);
   /// Whether a batch ends before its next evaluation.
   [[nodiscard]] bool is_over() const;
-  /// Of the first `known` points of the last call those before one that failed because a person ended the work. What
-  /// comes behind is taken back: resuming asks for it again.
+  /// The number of points, among the first `known` of the last call, before the first failure by an interruption. Later
+  /// points are removed; resuming requests them again.
   std::size_t keep(std::size_t replayed, std::size_t known);
   void count(std::span<const double> xs, const Evaluations::Call& call);
   void contradict(std::size_t slot, std::string what);

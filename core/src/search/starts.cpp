@@ -67,7 +67,7 @@ void Starts::take(StartProblem& start) {
   begun_ += parent_.ledger.stopped() ? 0 : 1;
   note_end(start.oracle.made);
   merge_(start.oracle.made);
-  // A start that the clock or the user ended is not whole: what follows it in order must not be counted.
+  // A start that the clock or the user ended is incomplete, so later starts must not be counted.
   const StopReason reason = start.oracle.ledger.stop_reason();
   if (reason == StopReason::interrupted || reason == StopReason::max_time) parent_.ledger.stop(reason);
   start.oracle.made = {};

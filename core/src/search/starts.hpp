@@ -10,9 +10,9 @@
 
 namespace tunica::search {
 
-/// The problem one of several independent searches sees. It keeps what it evaluated until somebody merges it, and
-/// stops at the latest where the merged search has: evaluations() and budget() count its own, from the budget there
-/// was when its block of starts began.
+/// The problem of one of several independent searches. It keeps its evaluations until they are merged, and stops no
+/// later than the merged search. evaluations() and budget() count only its own evaluations, from the budget at the
+/// beginning of its block of starts.
 class StartProblem : public Problem {
  public:
   StartProblem(SharedState& shared, Ledger ledger, std::uint64_t seed, std::vector<double> start,
@@ -34,7 +34,7 @@ class StartProblem : public Problem {
   Status constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) override {
     return oracle.constraints(x, values, jacobian);
   }
-  /// Starts within a start run one after the other on this problem, each with seeds of its own.
+  /// Starts within a start run one after the other on this problem, each with its own seeds.
   std::size_t for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override;
   [[nodiscard]] bool should_stop() const override { return oracle.should_stop(); }
   [[nodiscard]] std::uint64_t evaluations() const override { return oracle.ledger.tally().evaluations; }
@@ -49,12 +49,12 @@ class StartProblem : public Problem {
   std::vector<double> start_;  ///< unit box
 };
 
-/// Runs starts block by block, of 8, 16, 32, then 64, each block side by side, and merges what they evaluated in the
-/// order of the starts.
+/// Runs starts in blocks of 8, 16, 32, then 64. The starts of a block run in parallel. Their evaluations are merged in
+/// the order of the starts.
 ///
-/// The outcome is that of one start after the other: a start may have gone on beyond the point where the search as a
-/// whole stops; what lies beyond is discarded and not counted, later starts under way end at their next evaluation, and
-/// later blocks do not run.
+/// The outcome is that of sequential starts. A start may run beyond the point where the whole search stops; evaluations
+/// beyond that point are discarded and not counted. Later starts of the block end at their next evaluation, and later
+/// blocks do not run.
 ///
 /// `merge` takes one start's evaluations; it is called in the order of the starts, never concurrently. `parent` is
 /// what the search as a whole counts.
@@ -62,8 +62,8 @@ class Starts {
  public:
   Starts(SharedState& shared, Oracle& parent, std::function<void(const Evaluations&)> merge)
       : shared_(shared), parent_(parent), merge_(std::move(merge)) {}
-  /// Returns how many begin before the stop when they run one after the other. With `paired` all but the first begin at
-  /// points that follow from that number.
+  /// Returns how many starts would begin before the stop in a sequential run. With `paired`, all but the first begin at
+  /// points derived from that number.
   std::size_t run(std::size_t count, std::uint64_t seed, std::optional<std::uint64_t> paired,
                   const std::function<void(std::size_t, Problem&)>& body);
 
@@ -72,7 +72,7 @@ class Starts {
                  const std::function<void(std::size_t, Problem&)>& body);
   void take(StartProblem& start);
   [[nodiscard]] std::vector<double> start_of(std::size_t number) const;
-  /// Where a start ended: bounds that hold a search are to be told, whichever start wins.
+  /// Notes where a start ended. Bounds that hold a search are reported, whichever start wins.
   void note_end(const Evaluations& made);
 
   SharedState& shared_;

@@ -8,7 +8,7 @@
 
 namespace tunica::search {
 
-/// Why a search ended before its optimiser said that it had converged.
+/// Why a search ended before its optimiser converged.
 enum class StopReason {
   none,               ///< it did not
   target,             ///< the best objective is at or below stop.target
@@ -43,7 +43,7 @@ constexpr std::string_view code(StopReason reason) {
   return "";
 }
 
-/// None for a code that no reason has.
+/// None for an unknown code.
 constexpr std::optional<StopReason> stop_reason_from_code(std::string_view code) {
   for (const auto& [reason, candidate] : stop_reason_codes)
     if (candidate == code) return reason;
