@@ -140,7 +140,7 @@ std::vector<std::string> changed_keys(const std::filesystem::path& directory, co
   return keys;
 }
 
-/// The experiment without its analysis, which changes no evaluation: it may be asked for when the run is resumed.
+/// The experiment without its analysis. The analysis changes no evaluation, so a resumed run may request another one.
 std::string without_analysis(const std::string& input_json) {
   json input = detail::parse_json<json>(input_json, false);
   if (input.is_discarded()) return input_json;
@@ -161,7 +161,7 @@ Facts facts_of(const Plan& plan) {
       const auto space = hash.rfind(' ');
       auto& known = facts.data[hash.substr(0, space)];
       const std::string digest = space == std::string::npos ? hash : hash.substr(space + 1);
-      // Files of one name in several folders share the entry.
+      // Files with one name in several folders share an entry.
       if (known.find(digest) == std::string::npos) known += known.empty() ? digest : ' ' + digest;
     }
   }

@@ -12,7 +12,7 @@
 
 namespace tunica::execution {
 
-/// What must be the same for a run to be resumed.
+/// The facts that must be unchanged when a run is resumed.
 struct Facts {
   std::string experiment = {};                   ///< hash of the file without its analysis
   std::string seed = {};                         ///< "7"
@@ -25,8 +25,8 @@ struct Facts {
   bool operator==(const Facts&) const = default;
 };
 
-/// checkpoint.json: the facts, and the realisations that are finished. Those are not run again; the others are
-/// replayed from the journal (journal.hpp), which needs nothing but the evaluations themselves.
+/// checkpoint.json: the facts and the finished realisations. Finished realisations are not run again. The others are
+/// replayed from the journal (journal.hpp), which holds only the evaluations.
 struct Checkpoint {
   Facts facts;
   std::vector<std::pair<std::size_t, RealisationResult>> finished;  ///< task, result
@@ -37,24 +37,24 @@ Facts facts_of(const Plan& plan);
 
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint);
 
-/// The same in two steps, for whoever writes again and again: with its trace an entry is long, and is put into text
-/// once. `entries` by task.
+/// The same in two steps, for repeated writing. An entry with its trace is long, so it is converted to text only once.
+/// `entries` is by task.
 std::string checkpoint_entry(std::size_t task, const RealisationResult& result);
 void write_checkpoint(const std::filesystem::path& directory, const Facts& facts,
                       const std::map<std::size_t, std::string>& entries);
 
-/// Throws InputError when there is none, or it cannot be understood, or its facts are not those that were written. An
-/// entry whose checksum does not fit counts as not finished.
+/// Throws InputError if the file is missing or unreadable, or if its facts were altered. A realisation whose entry has
+/// a wrong checksum counts as unfinished.
 Checkpoint read_checkpoint(const std::filesystem::path& directory);
 
-/// Throws InputError when something changed since the run began: what, and what to do. `input_json` is the
-/// experiment as it is now; changed keys are named by comparing it with input.json.
+/// Throws InputError if a fact has changed since the run began. The message says which one and what to do. `input_json`
+/// is the experiment as it is now; changed keys are named by comparing it with input.json.
 void refuse_changes(const std::filesystem::path& directory, const Facts& then, const Facts& now,
                     const std::string& input_json);
 
-/// The vector level of the run in `directory`; empty where there is none that can be understood.
+/// The vector level of the run in `directory`; empty if none is readable.
 std::string vector_level_of(const std::filesystem::path& directory);
-/// Throws InputError where searches that were begun on one vector level would go on with another one.
+/// Throws InputError if searches that began at one vector level would continue at another.
 void refuse_other_level(const std::filesystem::path& directory, const std::string& then, const std::string& now);
 
 }  // namespace tunica::execution

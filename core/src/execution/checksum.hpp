@@ -4,17 +4,17 @@
 #include <string>
 #include <string_view>
 
-/// The checksum that stands in every record from which work is resumed. A record with a changed digit is never taken
-/// for what was written; it is against accidents, not against somebody who writes another checksum too.
+/// The checksum of every record from which work is resumed. It detects every changed digit. It protects against
+/// accidents, not against someone who also changes the checksum.
 namespace tunica::execution {
 
 inline constexpr std::size_t checksum_digits = 8;
 
-/// CRC-32 of the text (the polynomial of Ethernet and zlib) as eight hexadecimal digits. Any change within four
-/// neighbouring bytes gives another one, any other change with a probability of 1 − 2⁻³².
+/// CRC-32 of the text (the polynomial of Ethernet and zlib) as eight hexadecimal digits. It detects any change within
+/// four neighbouring bytes, and any other change with probability 1 − 2⁻³².
 std::string checksum(std::string_view text);
 
-/// The same without a string of its own: writes `checksum_digits` characters and returns the place behind them.
+/// The same without a new string: writes `checksum_digits` characters and returns the position after them.
 char* put_checksum(char* at, std::string_view text);
 
 /// The JSON object with the member "checksum" in front: that of its compact text without the member.
@@ -26,7 +26,7 @@ Json sealed(const Json& record) {
   return whole;
 }
 
-/// Whether an object that was read is what sealed() made. White space and the spelling of a number do not count.
+/// Whether a parsed object is what sealed() made. White space and the spelling of numbers do not matter.
 template <class Json>
 bool intact(const Json& whole) {
   if (!whole.is_object()) return false;

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t fixed_before = 3;  // id, run, realisation
 constexpr std::size_t fixed_after = 6;   // objective, status, violation, reason, time, checksum
 
-/// Columns of all runs, each once, in order of first appearance; and where each run finds its own among them.
+/// The columns of all runs, each once, in order of first appearance, and the positions of each run's columns.
 void unite(const std::vector<std::vector<std::string>>& per_run, std::vector<std::string>& columns,
            std::vector<std::vector<int>>& slots) {
   for (const auto& names : per_run)
@@ -106,7 +106,7 @@ void EvaluationTable::append_row(fmt::memory_buffer& buffer, std::size_t run, st
                                  const search::Record& record) const {
   const std::string reason = record.status.reason().empty() ? std::string() : csv_cell(record.status.reason());
   const std::size_t numbers = parameter_columns_.size() + cost_columns_.size() + fixed_before + fixed_after;
-  // Room for the longest line at once, then plain pointers: a fifth faster than appending piece by piece.
+  // It reserves room for the longest line and then writes by pointer: a fifth faster than appending piece by piece.
   const std::size_t before = buffer.size();
   buffer.resize(before + numbers * longest_number + quoted_labels_[run].size() + reason.size());
   char* at = buffer.data() + before;

@@ -13,7 +13,7 @@
 
 namespace tunica::execution {
 
-/// What one run has in evaluations.csv.
+/// The columns of one run in evaluations.csv.
 struct RunColumns {
   std::string label;                                            ///< "gho/es"
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name, base unit
@@ -25,10 +25,10 @@ struct RunColumns {
 ///   id, run, realisation, <parameter> [unit] …, cost.<test> …, objective, status, violation, reason, time [s],
 ///   checksum
 ///
-/// Parameter and cost columns are the union over the runs, in order of first appearance; a cell that a run does not
-/// have is empty. id counts from 1 within a realisation; time counts from its beginning; checksum is that of
-/// the line before it (checksum.hpp). Numbers are the shortest
-/// text that reads back as the same double: the file is the journal from which a run is resumed bit for bit.
+/// Parameter and cost columns are the union over the runs, in order of first appearance; a cell is empty if its run
+/// lacks the column. id counts from 1 within a realisation, and time from its beginning. checksum covers the text
+/// before it in the line (checksum.hpp). A number is the shortest text that reads back as the same double, because a
+/// run resumes from this file bit for bit.
 class EvaluationTable {
  public:
   explicit EvaluationTable(std::vector<RunColumns> runs);
@@ -45,9 +45,9 @@ class EvaluationTable {
     std::uint64_t realisation = 0, index = 0;  ///< index from 0, as in Record
     std::vector<std::string_view> cells;       ///< of the line that was parsed
   };
-  /// Whether a line is, to its last digit, one that append_row has written.
+  /// Whether a line is exactly one that append_row wrote.
   static bool intact(std::string_view line);
-  /// Splits a line and reads which evaluation it is; throws InputError on a line that this layout cannot have
+  /// Splits a line and reads the index of its evaluation. Throws InputError for a line that this layout cannot have
   /// written. `values` then reads the rest.
   void parse(std::string_view line, Row& row) const;
   void values(const Row& row, search::JournalEntry& entry) const;

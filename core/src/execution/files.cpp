@@ -29,7 +29,7 @@ std::string describe_failure(const std::filesystem::path& file, int error) {
   return fmt::format("{}: cannot write: {}. {}", file.string(), std::strerror(error), advice);
 }
 
-/// Every file that the program makes is opened here: what stands there under its name as a link is not followed.
+/// Opens every file that the program makes. A symbolic link under its name is not followed.
 int open_to_write(const std::filesystem::path& file, int how) {
   return ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | how, 0666);
 }
@@ -45,11 +45,11 @@ void write_all(int descriptor, std::string_view text, const std::filesystem::pat
   }
 }
 
-/// Some file systems cannot; a rename itself is atomic all the same.
+/// Some file systems cannot do this; a rename is atomic even so.
 bool cannot_sync(int error) { return error == EINVAL || error == ENOTSUP || error == EROFS; }
 
-/// A new file beside `file`. Its name is drawn, so that writers of the same file on several machines, whose process
-/// numbers may be equal, never share it.
+/// A new file beside `file`. Its name is random: writers of the same file on several machines may have equal process
+/// numbers, and must not share a temporary file.
 std::pair<std::filesystem::path, int> open_temporary(const std::filesystem::path& file) {
   std::random_device device;
   for (;;) {
@@ -130,7 +130,7 @@ void AppendFile::cut(std::uintmax_t size) {
 
 void AppendFile::close() {
   struct stat status {};
-  // What is under the number of a descriptor that a plugin has closed is somebody else's.
+  // After a plugin has closed the descriptor, its number may belong to another file.
   const bool own =
       is_open() && ::fstat(descriptor_, &status) == 0 && status.st_dev == device_ && status.st_ino == inode_;
   if (own) ::close(descriptor_);

@@ -7,12 +7,11 @@
 
 namespace tunica::execution {
 
-/// Keeps the first exception of jobs that run side by side, for after all of them. An exception that leaves a loop of
-/// TBB cancels the loops inside its other jobs, wherever they are, without a word to them: they would take half of
-/// their numbers for the whole.
+/// Keeps the first exception of parallel jobs until all jobs have ended. An exception that leaves a TBB loop silently
+/// cancels the inner loops of its other jobs. These jobs would then take incomplete results for complete ones.
 class FirstFailure {
  public:
-  /// Runs a job; nothing leaves it.
+  /// Runs a job; no exception leaves it.
   template <class Job>
   void guard(Job&& job) {
     try {
@@ -24,7 +23,7 @@ class FirstFailure {
     }
   }
   [[nodiscard]] bool any() const { return any_; }
-  /// Throws what was kept, if there is something.
+  /// Throws the kept exception, if there is one.
   void rethrow() const {
     if (first_) std::rethrow_exception(first_);
   }

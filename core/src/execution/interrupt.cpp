@@ -13,7 +13,7 @@ namespace tunica::execution {
 
 namespace {
 
-/// A signal, and what the process did with it before: a program ends, an interpreter has a handler of its own.
+/// A signal and its previous handler: a program ends by default, while an interpreter has its own handler.
 struct Watched {
   int number;
   struct sigaction before;
@@ -22,7 +22,8 @@ std::array<Watched, 3> watched{{{SIGINT, {}}, {SIGTERM, {}}, {SIGXFSZ, {}}}};
 
 void restore(const Watched& signal) { ::sigaction(signal.number, &signal.before, nullptr); }
 
-/// A supervisor ends what does not stop at the second signal. Without one, any second signal does.
+/// A supervisor kills a child that does not stop at the second signal. Without a supervisor, any second signal ends the
+/// process.
 void on_signal(int) {
   plugins::interrupted.store(true, std::memory_order_relaxed);
   if (plugins::casualties != nullptr) return;

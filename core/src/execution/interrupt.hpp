@@ -8,9 +8,9 @@
 
 namespace tunica::execution {
 
-/// Ctrl-C (SIGINT) and SIGTERM while this object lives: the first one raises a flag, so that the run can save and
-/// leave; a second one does what it would have done without us, and ends the process. A file-size limit is reported as
-/// a failed write instead of killing the process. Afterwards signals do what they did before. One object at a time.
+/// Handles Ctrl-C (SIGINT) and SIGTERM while this object lives. The first signal raises a flag, and the run saves and
+/// stops. A second signal has its previous effect and ends the process. A file-size limit is reported as a failed write
+/// instead of killing the process. The destructor restores the previous handlers. Only one object may exist at a time.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -19,13 +19,13 @@ class InterruptWatch {
   InterruptWatch& operator=(const InterruptWatch&) = delete;
 
   [[nodiscard]] static bool interrupted();
-  /// Raises the flag as Ctrl-C does, for whoever is asked between two signals.
+  /// Raises the flag as Ctrl-C does, for callers that are asked to stop without a signal.
   static void interrupt();
 };
 
-/// While this object lives: where something takes longer than half a second to stop after Ctrl-C, such as a simulation
-/// with finite elements, `leave` is called by a thread of its own. It is expected to end the process; what is on disk
-/// by then is what a killed run leaves, and resuming it gives the identical result.
+/// While this object lives, a separate thread calls `leave` if the work has not stopped half a second after Ctrl-C, for
+/// example in a finite-element simulation. `leave` must end the process. The disk then holds what a killed run leaves,
+/// and resuming gives the identical result.
 class InterruptLimit {
  public:
   explicit InterruptLimit(std::function<void()> leave);

@@ -11,8 +11,8 @@ namespace tunica::execution {
 
 namespace {
 
-// Measured: 10 kB a realisation with es and one parameter. It has a result, its improvements, a meter, an entry of the
-// checkpoint (in memory, and once more while it is written) and a row of the tables.
+// Measured: 10 kB per realisation with es and one parameter. A realisation has a result, its improvements, a meter, a
+// checkpoint entry (twice while it is written) and a row of the tables.
 constexpr double realisation_bytes = 10000, realisation_parameter_bytes = 100;
 constexpr double draw_bytes = 300, number_bytes = sizeof(double);
 constexpr double posterior_number_bytes = 5 * number_bytes;  // kept, sorted, ranked, and as text

@@ -7,10 +7,10 @@
 #include "execution/plan.hpp"
 #include "plugins/last_words.hpp"
 
-/// Whether an experiment fits into the machine, asked before the first evaluation.
+/// Checks before the first evaluation whether an experiment fits into the machine's memory.
 namespace tunica::execution {
 
-/// What one part of an experiment takes.
+/// The memory need of one part of an experiment.
 struct MemoryShare {
   double bytes = 0;
   std::string what, remedy;  ///< "1000000 realisations"; "Lower \"realisations\""
@@ -22,7 +22,7 @@ std::vector<MemoryShare> memory_need(const Plan& plan, unsigned threads);
 
 using plugins::memory_limit;
 
-/// Throws InputError with both figures where the sum does not fit.
+/// Throws InputError with both figures if the sum exceeds the memory.
 void refuse_excess(const std::vector<MemoryShare>& need, double limit);
 
 }  // namespace tunica::execution

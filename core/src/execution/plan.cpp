@@ -42,7 +42,8 @@ std::vector<PlannedStage> plan_stages(const experiment::Experiment& experiment, 
   return stages;
 }
 
-/// Constraints need an optimiser that meets them, and one that follows derivatives needs theirs, at the start at least.
+/// Constraints need an optimiser that handles them. A gradient-based one also needs their derivatives, at least at the
+/// start.
 void check_constraints(const PlannedRun& run, const PlannedStage& stage, const Optimizer::Needs& needs) {
   const std::size_t count = run.assembly->constraints().count();
   if (count == 0) return;
@@ -55,7 +56,7 @@ void check_constraints(const PlannedRun& run, const PlannedStage& stage, const O
   const std::vector<double> x = run.assembly->box().initial();
   std::vector<double> free(x.size()), values(count), jacobian(count * x.size());
   run.assembly->box().from_unit(x, free);
-  // Where the values cannot be had either, the initial parameters are to blame, which other starts may not be.
+  // If the values are missing too, the initial parameters are at fault, and other starts may still work.
   if (run.assembly->constraints().evaluate(free, values, {}).kind() == Status::Kind::failed) return;
   const Status status = run.assembly->constraints().evaluate(free, values, jacobian);
   const bool finite = std::all_of(jacobian.begin(), jacobian.end(), [](double entry) { return std::isfinite(entry); });
@@ -66,7 +67,7 @@ void check_constraints(const PlannedRun& run, const PlannedStage& stage, const O
         run.label, stage.entry->name, stage.entry->type, status.reason().empty() ? "" : ": ", status.reason()));
 }
 
-/// Whether anything was measured: without, `tunica check` still says what the rows are, and nothing is searched.
+/// Whether there are measured values. Without any, `tunica check` still describes the rows, and no search runs.
 bool is_measured(const assembly::Layout& layout) {
   return std::any_of(layout.channels.begin(), layout.channels.end(), [](const auto& channel) {
     return std::any_of(channel.measured.begin(), channel.measured.end(),
@@ -81,7 +82,7 @@ bool is_weighed(const assembly::Layout& layout) {
   });
 }
 
-/// What cannot work is refused before the first evaluation; what is only wasteful is a warning.
+/// Refuses unworkable settings before the first evaluation, and warns of wasteful ones.
 void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
   if (run.assembly->layout().parameters.empty())
     throw InputError(
@@ -128,7 +129,7 @@ void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
                         run.label});
 }
 
-/// Keys that suit another experiment, and do nothing in this one.
+/// Keys that have no effect in this experiment.
 void warn_of_idle_keys(const experiment::Experiment& experiment, const Plan& plan, std::vector<Warning>& warnings) {
   for (const PlannedRun& run : plan.runs)
     if (run.entry->fewer_simulations.guide && !run.assembly->layout().has_costly_tests)
@@ -141,7 +142,7 @@ void warn_of_idle_keys(const experiment::Experiment& experiment, const Plan& pla
                                     experiment.analysis.optimizer)});
 }
 
-/// Whatever has memory takes rows for the whole loading path, whether or not somebody said that they are.
+/// A model or mechanism with memory takes the rows for the whole loading path, whether or not the file says so.
 void warn_of_assumed_orders(const experiment::Experiment& experiment, const PlannedRun& run,
                             const plugins::Catalogue& catalogue, std::vector<Warning>& warnings) {
   std::vector<assembly::TestPast> assumed;
@@ -174,7 +175,7 @@ std::vector<std::string> used_plugins(const experiment::Experiment& experiment, 
   return {used.begin(), used.end()};
 }
 
-/// What runs have to share for their searches to begin at the same points.
+/// The properties that runs must share if their searches are to begin at the same points.
 std::string box_of(const assembly::Layout& layout) {
   std::string text;
   for (const auto& parameter : layout.parameters)
@@ -183,7 +184,7 @@ std::string box_of(const assembly::Layout& layout) {
   return text;
 }
 
-/// Where starts are to be paired, and no two runs can share them.
+/// Reports paired starts that no two runs can share.
 void warn_of_unpaired_starts(Plan& plan) {
   std::set<std::uint64_t> seeds;
   for (const auto& run : plan.runs)

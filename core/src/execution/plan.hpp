@@ -16,7 +16,7 @@
 
 namespace tunica::execution {
 
-/// One search within a run: the whole of it, or one of `stages`.
+/// One search within a run: the whole run, or one of its `stages`.
 struct PlannedStage {
   const experiment::OptimizerEntry* entry = nullptr;
   const plugins::Catalogue::Entry<OptimizerFactory>* optimizer = nullptr;
@@ -28,11 +28,11 @@ struct PlannedRun {
   std::string label;  ///< "gho/es"; a second run of the same pair is "gho/es#2"
   const experiment::RunEntry* entry = nullptr;
   std::unique_ptr<assembly::Assembly> assembly;
-  std::unique_ptr<assembly::Assembly> guide;  ///< cheaper tests in place of costly ones, where the run asks for them
+  std::unique_ptr<assembly::Assembly> guide;  ///< the run with cheaper tests in place of costly ones, on request
   std::vector<PlannedStage> stages;
   std::uint64_t seed = 0;  ///< derive_seed(root, "run <model>/<optimizer>#<k>")
-  /// Of the points that its searches begin at, where the experiment pairs them: the same for runs whose free parameters
-  /// have the same names, bounds and scales.
+  /// The seed of the starting points, if the experiment pairs them. It is equal for runs whose free parameters have the
+  /// same names, bounds and scales.
   std::optional<std::uint64_t> paired_seed = {};
 };
 
@@ -49,7 +49,7 @@ struct Plan {
   [[nodiscard]] EvaluationTable table() const;
 };
 
-/// Throws InputError where data, names or an optimiser's needs do not fit.
+/// Throws InputError if data, names or an optimiser's needs do not match.
 Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
 
 }  // namespace tunica::execution

@@ -83,11 +83,11 @@ std::string Progress::text(double seconds, std::size_t columns) const {
     label = plan_.runs[run].label;
     value = std::isfinite(best[run]) ? fmt::format("best {:.6g}", best[run]) : "no success yet";
   }
-  // The budget is an upper bound, for a search may converge before it is spent; so is the time.
+  // Budget and time are upper bounds, because a search may converge earlier.
   if (rate > 0)
     left = fmt::format("  max {} left", text::clock_text(static_cast<double>(spent.budget - spent.evaluations) / rate));
   if (value.empty()) return head + left;
-  // The name of the run gives way to the figures.
+  // The figures take precedence over the name of the run.
   constexpr std::size_t shortest_label = 4;
   const std::size_t figures = text::columns(head + value + left) + 4;
   const std::size_t room = columns > figures ? columns - figures : 0;

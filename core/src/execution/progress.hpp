@@ -22,19 +22,19 @@ struct alignas(64) Meter {
   void count(const search::Record& record);
 };
 
-/// What is shown on stderr while a run is under way: on a terminal one line that is redrawn, elsewhere a plain line
-/// every few seconds. One thread calls it.
+/// The progress display on stderr: one redrawn line on a terminal, elsewhere a plain line every few seconds. Only one
+/// thread calls it.
 class Progress {
  public:
   enum class Style { none, lines, bar };
-  /// Style for stderr as it is: a bar on a terminal that can redraw a line, else lines.
+  /// The style for the current stderr: a bar on a terminal that can redraw a line, else lines.
   static Style style_of_stderr();
 
   Progress(Style style, const Plan& plan, const std::vector<Meter>& meters, const Share& part = {});
-  /// Draws when it is time to; `last` takes the bar off the screen again.
+  /// Draws if it is due; `last` removes the bar from the screen.
   void draw(bool last = false);
-  /// The line after so many seconds: share of the budget, searches finished, rate, best value, time left. Where it
-  /// would be wider than `columns`, the name of the run is shortened.
+  /// The line after this many seconds: share of the budget, finished searches, rate, best value, time left. If it would
+  /// be wider than `columns`, the name of the run is shortened.
   [[nodiscard]] std::string text(double seconds, std::size_t columns = 1000) const;
   /// The share of the budget that is spent, from 0 to 1.
   [[nodiscard]] double share() const;
@@ -53,7 +53,7 @@ class Progress {
   text::StatusLine line_;
   const Plan& plan_;
   const std::vector<Meter>& meters_;
-  const Share part_;  ///< of the searches: the others are none of this process
+  const Share part_;  ///< of the searches that this process runs
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double drawn_ = 0;  ///< s since the beginning
 };

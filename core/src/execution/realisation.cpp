@@ -28,14 +28,14 @@ experiment::Stop stage_stop(const experiment::Stop& shared, const experiment::St
   return stop;
 }
 
-/// One line, as evaluations.csv stores it, so that a resumed run reports the same words.
+/// One line, as in evaluations.csv. A resumed run therefore reports the same words.
 std::string one_line(std::string text) {
   for (char& character : text)
     if (character == '\n' || character == '\r') character = ' ';
   return text;
 }
 
-/// Whether what stopped a stage is a limit of the whole; otherwise the next stage begins.
+/// Whether a limit of the whole realisation stopped the stage; otherwise the next stage begins.
 bool ends_all(const RealisationResult& result, const experiment::Stop& shared) {
   switch (result.stopped_by) {
     case search::StopReason::none:

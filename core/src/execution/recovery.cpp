@@ -39,9 +39,9 @@ bool StoredEvaluations::get(std::uint64_t index, search::JournalEntry& entry) co
 
 namespace {
 
-/// Calls `use` with every whole line and its number until it returns false: the line is damaged. Cuts off that line
-/// and all after it, and whatever follows the last line end. What was cut off because of damage is returned, and kept
-/// in `aside`: it may be all that tells what happened to the disk.
+/// Calls `use` with every complete line and its number until it returns false for a damaged line. Cuts off that line
+/// and all later ones, and any text after the last line end. Text that was cut off because of damage is returned and
+/// kept in `aside`, because it may be the only evidence of a disk fault.
 std::string read_lines(const std::filesystem::path& file, const std::filesystem::path& aside,
                        const std::function<bool(const std::string&, std::size_t)>& use) {
   if (std::error_code unknown; std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file))
@@ -82,7 +82,7 @@ class Reader {
     result_.evaluations.resize(tasks.size());
   }
 
-  /// Takes a line over; false when its evaluation is known already.
+  /// Accepts a line; false if its evaluation is already known.
   bool take(const std::string& line, const std::filesystem::path& file, std::size_t number) {
     try {
       table_.parse(line, row_);
@@ -104,7 +104,7 @@ class Reader {
     }
   }
 
-  /// Takes note of what read_lines() has cut off behind `kept` lines.
+  /// Notes the text that read_lines() cut off after `kept` lines.
   void note(const std::filesystem::path& file, std::size_t kept, const std::string& cut) {
     if (cut.empty()) return;
     const auto lines = std::count(cut.begin(), cut.end(), '\n') + (cut.back() == '\n' ? 0 : 1);

@@ -12,11 +12,11 @@
 
 namespace tunica::execution {
 
-/// The evaluations of one realisation, read back: what its optimiser was answered so far.
+/// The evaluations of one realisation, read back: the values that its optimiser received so far.
 class StoredEvaluations {
  public:
   void add(const search::JournalEntry& entry);
-  /// False when there is none at this index; see search::Replay.
+  /// False if there is no entry at this index; see search::Replay.
   bool get(std::uint64_t index, search::JournalEntry& entry) const;
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
@@ -28,17 +28,17 @@ class StoredEvaluations {
   std::unordered_set<std::uint64_t> ended_early_;
 };
 
-/// What the journal of a killed run holds. Reading repairs it: a torn last line is cut off, and rows that were being
-/// moved to evaluations.csv are moved to the end. A row whose checksum does not fit is cut off with all that follow it:
-/// the searches make them again, since what stands before decides them.
+/// The journal of a killed run. Reading repairs it: an incomplete last line is cut off, and an unfinished move of rows
+/// to evaluations.csv is completed. A row with a wrong checksum is cut off with all later rows. The searches make these
+/// rows again, since the earlier rows determine them.
 struct Recovered {
-  std::vector<std::string> damages;  ///< sentences for the user: which row, and what becomes of it
+  std::vector<std::string> damages;  ///< sentences for the user: which row, and what is done about it
   Journal::Stored stored;
   std::vector<StoredEvaluations> evaluations;  ///< per task; empty where not wanted
 };
 
-/// `wanted` says for which tasks the evaluations are needed; the others are only counted. Throws InputError when the
-/// files are not the journal of these tasks (file and line in the message).
+/// `wanted` selects the tasks whose evaluations are needed; those of other tasks are only counted. Throws InputError,
+/// with file and line, if the files are not the journal of these tasks.
 Recovered recover(const std::filesystem::path& directory, const EvaluationTable& table, const std::vector<Task>& tasks,
                   const std::vector<bool>& wanted);
 

@@ -9,7 +9,7 @@
 
 namespace tunica::execution {
 
-/// A feasible evaluation that was better than every one before it.
+/// A feasible evaluation that was better than all earlier ones.
 struct Improvement {
   std::uint64_t evaluations;  ///< made in the realisation by then, this one included
   double objective;
@@ -23,15 +23,15 @@ struct RealisationResult {
   std::vector<Improvement> trace;  ///< every improvement, in order; the convergence of this realisation
   search::Tally tally;
   bool converged = false;  ///< the optimiser's own word
-  std::string reason;      ///< the optimiser's reason for coming back
+  std::string reason;      ///< the optimiser's reason for returning
   search::StopReason stopped_by =
-      search::StopReason::none;  ///< of optimizer_failure `reason` says what the optimiser threw
+      search::StopReason::none;  ///< for optimizer_failure, `reason` is the exception's text
   std::string stop_sentence;     ///< the same in words; empty for none
-  bool memory_lacked = false;    ///< which ended the search, and says nothing of what it looked for
+  bool memory_lacked = false;    ///< memory ran out and ended the search; no evidence about its aim
   double seconds = 0;
 };
 
-/// What the execution hands to the comparison, one entry a run in the order of the file.
+/// The results that the execution passes to the comparison, one entry per run in the order of the file.
 struct RunResult {
   std::vector<RealisationResult> realisations;
 };

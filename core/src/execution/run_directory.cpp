@@ -25,8 +25,8 @@ namespace {
 
 const std::filesystem::path results = "results";
 
-/// Descriptors that hold a lock, each one larger by one; 0 = free. fork() copies descriptors, and a lock lasts as long
-/// as one copy is open. So a process that is forked closes its copies, without asking for memory or waiting.
+/// Descriptors that hold a lock, stored plus one; 0 = free. fork() copies descriptors, and a lock lasts as long as one
+/// copy is open. A forked process therefore closes its copies, without allocating or waiting.
 std::array<std::atomic<int>, 64> held_locks = {};
 
 void replace_held(int from, int to) {
@@ -44,7 +44,7 @@ void keep_from_forks(int lock) {
   replace_held(-1, lock);
 }
 
-/// A name as a folder name: what a shell would take amiss becomes '-', and the rest of a long name is left out.
+/// A name as a folder name: characters that are special in a shell become '-', and a long name is cut.
 std::string folder_name(const std::string& name) {
   constexpr std::size_t longest = 100;
   std::string folder;
@@ -59,7 +59,7 @@ std::string folder_name(const std::string& name) {
                                error.message()));
 }
 
-/// The system would take the part before it for the name.
+/// The system would end the name there.
 void refuse_zero_byte(const std::filesystem::path& path) {
   if (const auto end = path.native().find('\0'); end != std::string::npos)
     throw InputError(
@@ -135,8 +135,7 @@ RunDirectory::RunDirectory(std::filesystem::path path) : path_(std::move(path)) 
   if (lock_ < 0)
     throw InputError(fmt::format("{}: cannot be opened: {}; check its permissions, or name another folder with -o",
                                  path_.string(), std::strerror(errno)));
-  // The lock goes with the process, so a killed run leaves none behind. A process that a plugin forks has no share in
-  // it.
+  // The lock ends with the process, so a killed run leaves none behind. A process forked by a plugin does not hold it.
   keep_from_forks(lock_);
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     replace_held(lock_, -1);

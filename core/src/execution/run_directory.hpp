@@ -7,11 +7,11 @@
 
 namespace tunica::execution {
 
-/// The folder that one run writes to, held against a second process until this object dies.
+/// The output folder of one run, locked against other processes while this object lives.
 class RunDirectory {
  public:
-  /// A new folder: `requested`, which must not exist or be empty, else results/<name>-<n> with the first free n.
-  /// Throws InputError: nothing that is there is ever overwritten.
+  /// A new folder: `requested`, which must be missing or empty, else results/<name>-<n> with the first free n. Throws
+  /// InputError otherwise: existing files are never overwritten.
   static RunDirectory create(const std::optional<std::filesystem::path>& requested, const std::string& name);
   /// The folder of an interrupted run: `requested`, else the newest results/<name>-<n>.
   static RunDirectory reopen(const std::optional<std::filesystem::path>& requested, const std::string& name);
@@ -21,7 +21,7 @@ class RunDirectory {
   ~RunDirectory();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// It was made here.
+  /// Whether this object made the folder.
   [[nodiscard]] bool is_new() const { return is_new_; }
 
  private:
@@ -31,8 +31,8 @@ class RunDirectory {
   bool is_new_ = false;
 };
 
-/// Results that are written into a new folder at once, not resumed. Where that does not come to its end, for want of
-/// space or for an error, nothing is left: half a folder would stand in the way of the same command.
+/// Results that are written into a new folder in one go and never resumed. If writing fails, the folder is removed: an
+/// incomplete folder would block the same command.
 class NewResults {
  public:
   explicit NewResults(const RunDirectory& directory) : directory_(directory) {}

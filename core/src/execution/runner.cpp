@@ -52,8 +52,8 @@ class LogFile : public spdlog::sinks::base_sink<std::mutex> {
   AppendFile file_;
 };
 
-/// State of one execution. Searches touch their own results, the journal, the meters and `ended_`. The pulse makes
-/// files durable, so that no search waits for a disk, unless too many rows wait already.
+/// State of one execution. Searches write their own results, the journal, the meters and `ended_`. The pulse thread
+/// makes files durable, so no search waits for the disk unless too many rows are pending.
 class Run {
  public:
   Run(const Plan& plan, const RunSettings& settings)
@@ -88,7 +88,7 @@ class Run {
   std::unique_ptr<Journal> journal_;
   std::shared_ptr<spdlog::logger> log_;
   std::atomic<std::size_t> next_ = 0;
-  std::atomic<bool> broken_ = false;  ///< an exception is on its way, or the checkpoint cannot be written
+  std::atomic<bool> broken_ = false;  ///< an exception is pending, or the checkpoint cannot be written
   FirstFailure failure_;              ///< of a search
   std::string write_failure_;         ///< of the checkpoint
   std::mutex mutex_;                  ///< of `ended_`
@@ -127,7 +127,7 @@ void Run::open() {
         if (settings_.noticed) settings_.noticed(sentence);
       }
     for (auto& [task, result] : before.finished) {
-      // Without all of its rows (a loss of power) a finished realisation counts as unfinished, from its beginning.
+      // A finished realisation that lost rows (loss of power) counts as unfinished and starts again.
       if (task >= wanted.size() || recovered.stored.rows[task] != result.tally.evaluations) continue;
       finished_[task] = checkpoint_entry(task, result);
       results_[task] = std::move(result);
@@ -143,7 +143,7 @@ void Run::open() {
   }
   for (const auto& warning : plan_.warnings) log_->warn("{}", warning.text());
   journal_ = std::make_unique<Journal>(directory, table_, plan_.tasks, std::move(stored));
-  // Where threads outnumber the searches, one that has nothing to evaluate can write.
+  // If there are more threads than searches, an idle one can write.
   constexpr std::size_t of_few_searches = 1 << 16;
   if (plan_.tasks.size() < settings_.threads) journal_->let_wait(of_few_searches / plan_.tasks.size());
   std::vector<std::size_t> ended;
@@ -158,7 +158,7 @@ void Run::open() {
   write_checkpoint(directory, facts_, finished_);
 }
 
-/// Closes the rows of the searches that have ended; every second the checkpoint tells of them.
+/// Closes the rows of ended searches; the checkpoint lists them every second.
 void Run::settle() {
   std::vector<std::size_t> ended;
   {
@@ -173,7 +173,7 @@ void Run::settle() {
   if (unsaved_ && Clock::now() - saved_ >= checkpoint_interval) save();
 }
 
-/// Rows first, then the checkpoint that counts on them.
+/// Writes the rows first, then the checkpoint that relies on them.
 void Run::save() {
   journal_->flush(true);
   if (journal_->failed()) return;
@@ -222,7 +222,7 @@ void Run::run_task(std::size_t task) {
 void Run::work() {
   for (std::size_t task = next_++; task < plan_.tasks.size() && !stopping(); task = next_++) {
     if (results_[task].finished || !settings_.share.holds(task)) continue;
-    // Without isolation a thread that waits for its population could pick up another whole realisation.
+    // Without isolation, a thread that waits for its population could start another whole realisation.
     tbb::this_task_arena::isolate([&] { failure_.guard([&] { run_task(task); }); });
     if (failure_.any()) broken_ = true;
   }

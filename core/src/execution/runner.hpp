@@ -15,13 +15,13 @@ namespace tunica::execution {
 
 struct RunSettings {
   std::filesystem::path directory;  ///< of a RunDirectory
-  unsigned threads = 1;             ///< the one budget for realisations and population members together
+  unsigned threads = 1;             ///< shared by realisations and population members
   bool resume = false;
-  Share share = {};  ///< of the realisations; the others stay unfinished, which is then no interruption
+  Share share = {};  ///< of the realisations; the others stay unfinished, without counting as interrupted
   Progress::Style progress = Progress::Style::none;
-  /// Told ten times a second by a thread of its own: the share of the budget that is spent, and the line of Progress.
+  /// A separate thread calls it ten times a second with the spent share of the budget and the line of Progress.
   std::function<void(double share, const std::string& text)> told = {};
-  /// Told before the first evaluation of a resumed run what of its files was damaged, and what becomes of it.
+  /// Called before the first evaluation of a resumed run, with the damage to its files and the consequence.
   std::function<void(const std::string& sentence)> noticed = {};
 };
 
@@ -32,12 +32,12 @@ struct Execution {
   double seconds = 0;           ///< wall-clock time of this process
 };
 
-/// Runs every realisation of the plan and keeps evaluations.csv, checkpoint.json, input.json and run.log while doing
-/// so. The outcome does not depend on the number of threads: every realisation has a seed of its own, and what runs
-/// side by side inside one is put in order by the problem. Realisations are started in order; a thread that has none
-/// left helps with the population members of the others, but one that waits for its own members never starts a
-/// stranger's realisation meanwhile (generators of some libraries are thread-local).
-/// Ctrl-C is obeyed while an InterruptWatch lives. Throws InputError when a resume is refused; see Checkpoint.
+/// Runs every realisation of the plan and maintains evaluations.csv, checkpoint.json, input.json and run.log. The
+/// outcome does not depend on the number of threads: every realisation has its own seed, and the problem orders the
+/// parallel work within it. Realisations start in order. A thread without a realisation helps with the population
+/// members of others. A thread that waits for its own members never starts another realisation meanwhile, because some
+/// libraries have thread-local generators. Ctrl-C is obeyed while an InterruptWatch lives. Throws InputError when a
+/// resume is refused; see Checkpoint.
 Execution execute(const Plan& plan, const RunSettings& settings);
 
 }  // namespace tunica::execution

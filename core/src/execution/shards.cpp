@@ -28,10 +28,10 @@ std::vector<std::filesystem::path> parts_of(const std::filesystem::path& directo
   return parts;
 }
 
-/// The rows of each task, of a part that is not at work.
+/// The rows of each task of a part that is not running.
 std::map<std::size_t, std::string> rows_of(const std::filesystem::path& part, const EvaluationTable& table,
                                            const std::vector<Task>& tasks, std::vector<std::string>& damages) {
-  // Mends what a kill has left.
+  // Repairs the files of a killed part.
   const Recovered mended = recover(part, table, tasks, std::vector<bool>(tasks.size(), false));
   damages.insert(damages.end(), mended.damages.begin(), mended.damages.end());
   std::map<std::size_t, std::string> rows;

@@ -8,15 +8,15 @@
 #include "execution/plan.hpp"
 #include "execution/share.hpp"
 
-/// The realisations of one experiment in parts that any process makes, in any order and as often as it likes.
+/// The realisations of one experiment, split into parts. Any process may run any part, in any order and repeatedly.
 namespace tunica::execution {
 
-/// Where a part works: shards/<k>of<N>, a folder like that of a run.
+/// The folder of a part: shards/<k>of<N>, like that of a run.
 std::filesystem::path shard_folder(const std::filesystem::path& directory, const Share& share);
 
-/// Puts together what the parts have left, so that a resumed run in `directory` finds every realisation finished and
-/// searches nothing. May be repeated. Throws InputError where a realisation is missing, a part is still at work, or
-/// something has changed since it began. `noticed` is told what was damaged in a part, and what becomes of it.
+/// Combines the results of the parts. A resumed run in `directory` then finds every realisation finished and searches
+/// nothing. It may be repeated. Throws InputError if a realisation is missing, a part is still running, or a fact has
+/// changed since the part began. `noticed` receives the damage to a part and its consequence.
 void gather_shards(const Plan& plan, const std::filesystem::path& directory,
                    const std::function<void(const std::string& sentence)>& noticed = {});
 

@@ -6,8 +6,8 @@
 
 namespace tunica::execution {
 
-/// Part k of N of a list: every N-th entry, from the k-th. Parts are disjoint and together all, and what an entry gives
-/// does not depend on the part it is in.
+/// Part k of N of a list: every N-th entry, from the k-th. Parts are disjoint and cover the list. The result of an
+/// entry does not depend on its part.
 struct Share {
   std::size_t part = 1, of = 1;
 

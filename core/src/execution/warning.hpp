@@ -10,7 +10,7 @@
 
 namespace tunica::execution {
 
-/// What a warning is about. Scripts and the report decide by it, so that the sentences may change.
+/// The kind of a warning. Scripts and the report use it, so the sentences may change.
 enum class WarningKind {
   misfit_out_of_scale,
   no_misfit,
