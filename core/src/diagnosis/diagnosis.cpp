@@ -11,13 +11,13 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// An analysis, and the gross rows that are the only thing wrong in it.
+/// An analysis, and its gross rows if nothing else is wrong.
 struct Screening {
   Analysis analysis;
   std::vector<GrossRow> gross;
 };
 
-/// Gross rows are left out where something is wrong with the other rows too: they would only be in its way.
+/// Gross rows are left out if something else is wrong too, because they would disturb its analysis.
 Screening screen(const Inquiry& inquiry) {
   Analysis whole = analyse(inquiry, {});
   std::vector<GrossRow> gross;
@@ -33,7 +33,7 @@ struct Explained {
   Explanation explanation;
 };
 
-/// Noise that the residuals of the base said is asked once more of what the extension leaves.
+/// Noise estimated from the residuals of the base is estimated once more from those of the extension.
 Explained with_noise_of_extension(const Inquiry& inquiry, Explained found) {
   if (!found.explanation.claim.best || !found.explanation.gross.empty()) return found;
   auto analysis = restated(inquiry, found.analysis, found.explanation.claim.best->fit);
@@ -42,7 +42,7 @@ Explained with_noise_of_extension(const Inquiry& inquiry, Explained found) {
   return {std::move(*analysis), std::move(explanation)};
 }
 
-/// Rows that the causes explain were no gross errors: they come back, and everything is looked at again.
+/// Rows that the causes explain were not gross errors. They are restored, and the analysis is repeated.
 Explained explained(const Inquiry& inquiry) {
   Screening screening = screen(inquiry);
   Explanation explanation = explain(inquiry, screening.analysis, screening.gross);

@@ -7,7 +7,7 @@
 #include "diagnosis/naming/explanation.hpp"
 #include "diagnosis/prospects/prospects.hpp"
 
-/// What the simulation gets wrong, why, and what is gained by adding the cause: docs/diagnosis.md.
+/// Where the simulation is wrong, why, and what the addition of the cause gains: docs/diagnosis.md.
 namespace tunica::diagnosis {
 
 struct Diagnosis {
@@ -20,7 +20,7 @@ struct Diagnosis {
 };
 
 /// Runs a whole diagnosis; docs/diagnosis.md says how. Deterministic given the seed of the request, for any number of
-/// threads. Throws InputError where data or names do not fit, BaseFitFailure where the base model cannot be fitted.
+/// threads. Throws InputError if data or names do not match, and BaseFitFailure if the base model cannot be fitted.
 Diagnosis diagnose(const experiment::Experiment& experiment, const Request& request,
                    const plugins::Catalogue& catalogue, const Progress& progress = {});
 

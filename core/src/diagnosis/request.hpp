@@ -14,19 +14,19 @@
 
 namespace tunica::diagnosis {
 
-/// What is asked: the "diagnosis" block of the experiment file and the command line.
+/// The request: the "diagnosis" block of the experiment file and the command line.
 struct Request {
   std::string model;                    ///< name of an entry of "models"; empty where every test names its layers
   std::string optimizer;                ///< one more start of the base fit is what it finds; empty = none
   double alpha = 0.05;                  ///< false alarms that are accepted
   std::vector<std::string> mechanisms;  ///< ids to consider; empty = all
   bool admissibility = false;           ///< lost stability changes the verdict
-  /// What is not worth caring about: observable (empty = all) and "2 %" of its range, or a quantity in its unit.
+  /// The tolerated misfit: observable (empty = all) and "2 %" of its range, or a quantity in its unit.
   std::vector<std::pair<std::string, std::string>> tolerance = {};
   bool quick = false;  ///< linear bootstrap only, refits of the likeliest causes only
   std::uint64_t seed = 1;
   std::vector<std::string> groups = {"material", "rig", "file"};  ///< where causes may lie
-  double wrong_files = 0.1;  ///< share of files that are expected to say what is not so
+  double wrong_files = 0.1;                                       ///< expected share of files with a mistake
 
   [[nodiscard]] bool considers(const std::string& group) const {
     return std::find(groups.begin(), groups.end(), group) != groups.end();
@@ -39,10 +39,10 @@ Request request_of(const experiment::Experiment& experiment);
 /// The run that a diagnosis of this model takes for its base: the first one with it; null where none has it.
 const experiment::RunEntry* run_of_model(const experiment::Experiment& experiment, const std::string& model);
 
-/// How far a diagnosis is, for a person: the stage, and the share that is done. Called from any thread.
+/// Progress of a diagnosis for people: the stage and the finished share. Called from any thread.
 using Progress = std::function<void(const std::string& stage, double share)>;
 
-/// What every stage starts from beside the stages before it. Refers to what lives longer.
+/// The inputs of every stage besides earlier stages. It holds references to longer-lived objects.
 struct Inquiry {
   const experiment::Experiment& experiment;
   const Request& request;

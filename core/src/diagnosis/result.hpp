@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-/// What a diagnosis says, as plain data: no fit, no model, no calculation. Codes are the stable names that result.json
-/// carries beside its sentences; sentences may change, codes do not.
+/// The result of a diagnosis as plain data: no fit, no model, no calculation. Codes are the stable names beside
+/// sentences in result.json; sentences may change, codes do not.
 namespace tunica::diagnosis {
 
 enum class Verdict {
@@ -42,8 +42,8 @@ enum class ReasonKind {
   stability_restored,
   restored_by_larger,
   terms_discovered,
-  file_suspected,  ///< what the file says is not so, and that explains the misfit
-  file_as_likely,  ///< it may not be so, and nothing else explains the misfit better
+  file_suspected,  ///< a mistake in the file explains the misfit
+  file_as_likely,  ///< a mistake in the file is as likely as any other explanation
   leads,
   several_lead,
   unlisted_misfit,
@@ -89,7 +89,7 @@ struct Warning {
 enum class CauseGroup { material, rig };
 const char* code_of(CauseGroup group);
 
-/// What a file may say that is not so.
+/// Kinds of mistakes in a file.
 enum class FileKind {
   stress_measure,     ///< Cauchy, first or second Piola–Kirchhoff
   strain_definition,  ///< engineering, logarithmic, Green–Lagrange, squares, percent
@@ -115,7 +115,7 @@ enum class Absence {
   isotropic,       ///< it acts along directions, and the base has none
   no_volume,       ///< the volume would change, and no measured lateral stretch or volume shows it
   no_size,         ///< it needs sizes of the specimen that the file does not say
-  no_past          ///< it has memory, and nobody says what a test bore before each row
+  no_past          ///< it has memory, and the history of a test is unknown
 };
 const char* code_of(Absence absence);
 /// Whether the effect may be in the data all the same.
@@ -137,7 +137,7 @@ struct Place {
   [[nodiscard]] std::string words() const;
 };
 
-/// A row that stands apart from its neighbours as no mechanism makes it.
+/// A row that differs from its neighbours in a way that no mechanism explains.
 struct GrossRow {
   std::string test, channel;
   std::size_t row = 0;

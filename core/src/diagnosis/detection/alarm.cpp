@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t linear_draws = 10000, quick_draws = 4000, refits = 199;
 
-/// How much larger than it is taken to be the noise could be, and the alarm would stand.
+/// The largest factor on the noise at which the alarm still holds.
 std::optional<double> noise_that_silences(const Detector& detector, const Fit& fit, double alpha) {
   constexpr double step = 1.05, most = 20;
   double factor = 1;
@@ -20,7 +20,7 @@ std::optional<double> noise_that_silences(const Detector& detector, const Fit& f
   return factor > 1 ? std::optional(factor) : std::nullopt;
 }
 
-/// From refits, and below what so many of them can tell apart from the linear draws.
+/// From refits; from the linear draws below the resolution of that many refits.
 double refined_p(const Inquiry& inquiry, const Evidence& evidence, const Alarm& alarm) {
   const double p = p_from_refits(inquiry, evidence, *alarm.detector, alarm.detection, refits);
   const bool none_was_worse = p * (refits + 1) < 1.5;

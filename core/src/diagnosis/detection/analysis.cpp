@@ -11,7 +11,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// Evidence and hypotheses under the noise that the residuals of a fit say there is.
+/// Evidence and hypotheses under the noise estimated from the residuals of a fit.
 Analysis with_noise_of(const Inquiry& inquiry, const Evidence& evidence, const Hypotheses& hypotheses,
                        const NoiseEstimate& estimate) {
   Evidence stated = restated(inquiry, evidence, estimate);

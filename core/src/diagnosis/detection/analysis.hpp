@@ -9,19 +9,19 @@
 
 namespace tunica::diagnosis {
 
-/// One pass over the data, up to whether anything is wrong: what explanations start from.
+/// One pass over the data up to the alarm. Explanations start from it.
 struct Analysis {
   Evidence evidence;
   Hypotheses hypotheses;
   Alarm alarm;
 };
 
-/// The pass without these rows. Noise that nobody stated is first that of neighbouring rows; when the hypotheses are
-/// there, it is estimated outside of them all, and evidence and hypotheses are stated again by it.
+/// The pass without these rows. Unstated noise is first estimated from neighbouring rows. When the hypotheses are
+/// known, it is estimated outside their span, and evidence and hypotheses are recomputed with it.
 Analysis analyse(const Inquiry& inquiry, const std::vector<GrossRow>& gross);
 
-/// The pass with the noise that an extension's residuals say there is; none where nothing is estimated, or σ of no
-/// channel changes by more than a tenth.
+/// The pass with the noise estimated from an extension's residuals; none if no noise is estimated, or if no σ changes
+/// by more than a tenth.
 std::optional<Analysis> restated(const Inquiry& inquiry, const Analysis& analysis, const Fit& extension);
 
 }  // namespace tunica::diagnosis

@@ -42,7 +42,7 @@ Detector::Detector(const Projection& projection, std::vector<Direction> directio
                    const Shapes& shapes, const Draws& draws)
     : directions_(std::move(directions)), candidates_(candidate_count), multiplicity_(candidate_count, 1.0) {
   const Eigen::MatrixXd projected = projection.off(shapes.columns);
-  // What a refit absorbs to less than a per cent is no shape that residuals can have.
+  // A refit absorbs more than 99 % of these shapes, so residuals cannot have them.
   std::vector<Eigen::Index> kept;
   for (Eigen::Index k = 0; k < projected.cols(); ++k)
     if (projected.col(k).norm() > 0.01 * shapes.columns.col(k).norm()) kept.push_back(k);
@@ -108,11 +108,12 @@ Detector::Seen Detector::seen_of(const Projection& projection, const Draws& draw
   Eigen::MatrixXf units(residuals.rows(), static_cast<Eigen::Index>(directions_.size()));
   for (std::size_t k = 0; k < directions_.size(); ++k)
     units.col(static_cast<Eigen::Index>(k)) = directions_[k].unit.cast<float>();
-  // Only what the columns of Q and the directions see matters, and both are orthogonal to J: draws need no projection.
+  // Only components along the columns of Q and the directions matter. Both are orthogonal to J, so draws need no
+  // projection.
   if (draws.precision.rows() == 0)
     return {(smooth.transpose() * residuals).colwise().squaredNorm().transpose(), residuals.transpose() * units};
 
-  // Weighed by σ̂ of its own, a draw is not orthogonal to J any more: it is projected before.
+  // A draw weighted by its own σ̂ is no longer orthogonal to J, so it is projected first.
   const Eigen::Index groups = draws.precision.rows();
   Eigen::MatrixXf squares = Eigen::MatrixXf::Zero(groups + 1, units.cols());  // Σ u² by group, the rest last
   for (Eigen::Index i = 0; i < units.rows(); ++i) {
@@ -148,7 +149,7 @@ double Detector::smooth_p(double Q) const {
 
 double Detector::mechanisms_p(double B) const {
   if (visible_ == 0) return 1;
-  // Beyond the highest 2 % of the draws e^B falls as the reciprocal: in the mean over draws it is one.
+  // Beyond the highest 2 % of the draws, the p-value falls as e^−B, because the mean of e^B over draws is one.
   const std::size_t n = likelihoods_.size(), high = n - std::max<std::size_t>(n / 50, 1);
   const double edge = static_cast<double>(likelihoods_[high]);
   if (B > edge) return static_cast<double>(n - high) / static_cast<double>(n) * std::exp(edge - B);
@@ -199,7 +200,7 @@ Detection Detector::test(const Eigen::VectorXd& given, const Eigen::VectorXd& pr
 }
 
 double Detector::threshold(std::size_t candidate, double alpha) const {
-  // p_B that raises the alarm, B that has it, and T of a direction that brings B there while the others say nothing.
+  // The p_B that raises the alarm, its B, and the T of a single direction that gives this B while all others are 0.
   const auto at = static_cast<std::size_t>(alpha * static_cast<double>(smallest_.size()));
   const double p = std::max(static_cast<double>(smallest_[at]), 1e-6);
   double low = 0, high = 60;
@@ -210,7 +211,7 @@ double Detector::threshold(std::size_t candidate, double alpha) const {
   double share = 1;
   for (const Direction& direction : directions_)
     if (direction.candidate == candidate && !direction.row) share = std::min(share, direction.share);
-  // e^B is the mean over visible candidates, each of which has 1 where it says nothing: V e^B = V − s + s e^{T/2}.
+  // e^B is the mean over visible candidates; a candidate without evidence contributes 1: V e^B = V − s + s e^{T/2}.
   return 2 * std::log1p(static_cast<double>(visible_) * std::expm1(high) / share);
 }
 

@@ -14,13 +14,13 @@ namespace tunica::diagnosis {
 
 constexpr double smooth_price = 4;  ///< what a p-value of Q costs against one of B
 
-/// What the two tests say of residuals.
+/// The results of the two tests on residuals.
 struct Detection {
   double p = 1;                       ///< of the smaller of the two, calibrated
   double smooth = 1, mechanisms = 1;  ///< of the smooth omnibus and of the mechanisms, each by itself
   double Q = 0;
   std::vector<double> by_candidate;    ///< p-value of the largest score of each; 1 where it has none
-  std::vector<std::size_t> direction;  ///< that has it
+  std::vector<std::size_t> direction;  ///< the direction of that score
   std::vector<double> by_curve;        ///< p-value of the smooth shapes of each curve
 };
 
@@ -29,8 +29,8 @@ struct Detection {
 ///
 ///   B = ln mean over candidates of Σ share · exp(T/2) · {1 two-sided, 2Φ(√T) one-sided},
 ///
-/// whose largest term is the largest score, and which has more power than that alone where several see the same. The
-/// smaller of p_B and 4 p_Q is calibrated against its own distribution: Q is there for what no mechanism sees.
+/// The largest score dominates B, but B has more power if several candidates respond to the same effect. The smaller of
+/// p_B and 4 p_Q is calibrated against its own distribution. Q detects shapes that no mechanism produces.
 class Detector {
  public:
   /// `draws` from noise_draws.
@@ -46,13 +46,13 @@ class Detector {
   [[nodiscard]] Detection test(const Eigen::VectorXd& given, const Eigen::VectorXd& precision = {}) const;
   /// The score at which a candidate alone raises an alarm of this level.
   [[nodiscard]] double threshold(std::size_t candidate, double alpha) const;
-  /// P-value of the largest score of one candidate where there is nothing to find.
+  /// P-value of the largest score of one candidate under the null.
   [[nodiscard]] double candidate_p(std::size_t candidate, double T) const;
-  /// What the best mechanism gains on average where there is nothing to find.
+  /// The mean gain of the best mechanism under the null.
   [[nodiscard]] double gain_of_nothing() const { return gain_of_nothing_; }
 
  private:
-  /// What the smooth shapes and the directions (a column each) see of draws.
+  /// Projections of draws onto the smooth shapes and the directions (a column each).
   struct Seen {
     Eigen::VectorXf Q;
     Eigen::MatrixXf t;

@@ -17,7 +17,7 @@ namespace tunica::diagnosis {
 
 namespace {
 
-/// What the channels of one draw say of one another, from Σ e² of each.
+/// The moderation among the channels of one draw, from Σ e² of each.
 Moderation moderation_in(const Eigen::VectorXf& squares, const Eigen::VectorXf& freedom) {
   std::vector<double> ratios, own;
   for (Eigen::Index g = 0; g < squares.size(); ++g) {
@@ -102,7 +102,7 @@ Draws noise_draws(const Evidence& evidence, std::size_t draws, std::uint64_t see
   all.resize(rows, static_cast<Eigen::Index>(draws));
   for (Eigen::Index b = 0; b < all.cols(); ++b)
     for (Eigen::Index i = 0; i < rows; ++i) all(i, b) = static_cast<float>(normal(generator));
-  // A correlation that was estimated a little wrong leaves some of it in the whitened rows of all curves alike.
+  // An error in the estimated correlation leaves some correlation in the whitened rows of all curves.
   std::vector<double> left(draws);
   for (double& value : left) value = normal(generator);
   for (const Curve& curve : evidence.curves) {

@@ -21,7 +21,7 @@ double p_from_refits(const Inquiry& inquiry, const Evidence& evidence, const Det
   std::atomic<std::size_t> finished = 0;
   tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t b) {
     const auto workspace = base.evaluator().make_workspace();
-    // Residuals of data simulated at the fit: those of the measured data drop out, the noise takes their place.
+    // Residuals of data simulated at the fit: simulated noise replaces the residuals of the measured data.
     Eigen::VectorXd simulated = noise.residuals.col(static_cast<Eigen::Index>(b)).cast<double>();
     const Eigen::VectorXd precision = noise.precision_of_rows(static_cast<Eigen::Index>(b));
     if (precision.size() > 0) simulated = simulated.cwiseQuotient(precision.cwiseSqrt()).eval();

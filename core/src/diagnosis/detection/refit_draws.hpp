@@ -8,9 +8,9 @@
 
 namespace tunica::diagnosis {
 
-/// (1 + draws that look worse)/(draws + 1): data simulated from the base fit with nothing hidden in them, each fitted
-/// again and tested like the measured ones. What the linear calibration leaves out, the curvature of the model, is in
-/// it. Draws side by side, each with a noise of its own number.
+/// (1 + number of worse draws)/(draws + 1). Each draw is simulated from the base fit without any hidden effect, fitted
+/// again, and tested like the measured data. It includes the curvature of the model, which the linear calibration
+/// neglects. Draws run in parallel, each with its own noise seed.
 double p_from_refits(const Inquiry& inquiry, const Evidence& evidence, const Detector& detector,
                      const Detection& measured, std::size_t draws);
 

@@ -10,8 +10,8 @@
 
 namespace tunica::diagnosis {
 
-/// Smooth shapes a misfit may have: for each curve Legendre polynomials of degree 0, 1, 2 along its rows; and where it
-/// runs to and fro, of degree 0, 1 times the direction it runs in. Columns by curve.
+/// Smooth shapes of a misfit. Each curve has Legendre polynomials of degree 0, 1, 2 along its rows. A curve that
+/// reverses also has those of degree 0, 1 times the direction of loading. Columns are by curve.
 struct Shapes {
   Eigen::MatrixXd columns;
   std::vector<std::size_t> curve;  ///< of each column

@@ -56,7 +56,7 @@ const std::vector<double>* stretch_along(const MeasuredChannel& view, const std:
 /// A first loading: its rows by rising distance from rest.
 using Points = std::vector<std::pair<double, double>>;
 
-/// Of rows in loading order those that go further than all before: no unloading, no later cycle, no hold.
+/// The rows that go further than all earlier ones: no unloading, no later cycle, no hold.
 void add(Points& points, double stretch, double value) {
   constexpr double rest = 1;
   if (points.empty() || std::abs(stretch - rest) > std::abs(points.back().first - rest))

@@ -7,10 +7,10 @@
 
 namespace tunica::diagnosis {
 
-/// What the data say by themselves, without a model: two directions of a specimen answer differently at equal
-/// stretches, by more than five standard deviations and more than `tolerance` of the range. In sheets these are rows
-/// with the same stretch in both directions, for strips cut along two directions the stretches that both reach. "two
-/// directions answer differently: at stretch 1.12 in both, 18 and 39 kPa …"; empty where they do not.
+/// Anisotropy that the data show without a model: at equal stretches, two directions of a specimen differ by more than
+/// five standard deviations and more than `tolerance` of the range. In sheets it compares rows with the same stretch in
+/// both directions. For strips cut along two directions, it compares the stretches that both reach. "two directions
+/// answer differently: at stretch 1.12 in both, 18 and 39 kPa …"; empty where they do not.
 std::string anisotropy_words(const Evidence& evidence, double tolerance = 0.02);
 
 }  // namespace tunica::diagnosis

@@ -33,7 +33,7 @@ std::vector<std::vector<double>> random_starts(const assembly::Assembly& assembl
   return starts;
 }
 
-/// Where the optimizer of the request ends, or why there is no such start.
+/// The end point of the requested optimizer, or the reason why there is none.
 struct OptimizerStart {
   std::vector<double> free = {};
   std::vector<Warning> warnings = {};
@@ -66,8 +66,7 @@ OptimizerStart optimizer_start(const Inquiry& inquiry, const Preparation& prepar
                     name, found.status.reason())}}};
 }
 
-/// The predictions, moved by the mean residual of the seven rows around each: what is measured, with little of its
-/// noise.
+/// The predictions plus the mean residual of the seven rows around each: the measured curve with little noise.
 std::vector<double> smoothed_level(const assembly::MeasuredChannel& view, std::span<const double> predicted) {
   constexpr std::size_t half = 3;
   std::vector<double> level(predicted.begin(), predicted.end());
@@ -98,7 +97,8 @@ experiment::Experiment with_noise_levels(experiment::Experiment experiment, cons
   return experiment;
 }
 
-/// A bound that keeps the model from the data looks like a cause. The model's own range is no such bound.
+/// A bound that keeps the model away from the data looks like a cause. The model's declared range does not count as
+/// such a bound.
 std::optional<Warning> bound_warning(const assembly::Assembly& assembly, const Fit& fit) {
   std::vector<std::string> bounds;
   const auto& parameters = assembly.layout().parameters;
@@ -118,7 +118,7 @@ std::optional<Warning> bound_warning(const assembly::Assembly& assembly, const F
                              text::joined(bounds))};
 }
 
-/// What one more step of the parameters promises to take of |r|².
+/// The predicted decrease of |r|² by one more step of the parameters.
 double step_promises(const Fit& fit) { return fit.chi2 - Projection(interior(fit)).off(fit.residuals).squaredNorm(); }
 
 }  // namespace
@@ -153,11 +153,12 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
     throw BaseFitFailure(fmt::format("diagnosis: the base model cannot be evaluated from any of {} starts: {}",
                                      fits.size(), fits.front().status.reason()));
   base.fit = *best;
-  // A search that ended on its way has more starts, and more steps.
+  // A search that ended early gets more starts and more steps.
   const auto promises = [](const Fit& fit, double share) {
     return step_promises(fit) > std::max({share * fit.chi2, matters, static_cast<double>(fit.residuals.size())});
   };
-  // The lowest valley is known where two starts have come to it. What a poor one misses would look like a cause.
+  // The lowest minimum counts as found if two starts have reached it. The misfit of a poorer one would look like a
+  // cause.
   const double noise_alone = 2 * static_cast<double>(base.fit.residuals.size());
   const auto is_open = [&](const std::vector<Fit>& ended) {
     const auto there = std::ranges::count_if(
@@ -184,7 +185,7 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
         100 * step_promises(base.fit) / base.fit.chi2, base.fit.chi2));
   if (auto warning = bound_warning(assembly, base.fit))
     base.warnings.insert(base.warnings.begin(), std::move(*warning));
-  // Scores presuppose an optimum: what of the residuals a step of the parameters could still take away must be nothing.
+  // Scores presuppose an optimum: a step of the parameters must not reduce the residuals any further.
   if (const double left = step_promises(base.fit); left > 0.1)
     base.warnings.push_back(
         {WarningKind::base_fit_not_optimal,

@@ -10,7 +10,7 @@
 
 namespace tunica::diagnosis {
 
-/// The base model could not be evaluated from any start, or comes to no optimum.
+/// The base model could not be evaluated from any start, or does not reach an optimum.
 class BaseFitFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -21,21 +21,21 @@ struct BaseFit {
   std::vector<Warning> warnings;
 };
 
-/// The base model fitted from its initial values and from random points, and from what the optimizer of the request
-/// finds unless it is quick; the best of all, checked: a gradient that is not zero is no optimum to test from. Throws
-/// BaseFitFailure, also where one more step promises to take half of |r|².
+/// The best fit of the base model from its initial values and from random points. Unless the diagnosis is quick, the
+/// end point of the requested optimizer is one more start. Its gradient must vanish, because the tests presuppose an
+/// optimum. Throws BaseFitFailure, also if one more step would remove half of |r|².
 BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared);
 
-/// The fit under the noise that it settles.
+/// The fit, with the noise that it determines.
 struct SettledFit {
   experiment::Experiment experiment;
   std::shared_ptr<const assembly::Assembly> base;
   Fit fit;
 };
 
-/// Relative noise is a share of the true value, not of the measured one: rows that happen to be measured low would seem
-/// better known than those measured high, and pull the fit down. Here it becomes a share of what the base fit predicts
-/// and its residuals say, averaged over seven rows, and the model is fitted again. Without relative noise nothing
+/// Relative noise is a share of the true value, not of the measured one. Otherwise rows that happen to be measured low
+/// would seem more precise than those measured high, and would pull the fit down. Here it becomes a share of the base
+/// fit plus its residuals averaged over seven rows, and the model is fitted again. Without relative noise nothing
 /// changes.
 SettledFit settle_noise(const Inquiry& inquiry, const Preparation& prepared, const Fit& fit);
 

@@ -89,7 +89,7 @@ OpenCurves open_curves(const Evidence& evidence, const Eigen::VectorXd& sd) {
   return open;
 }
 
-/// Predicted values of the fitted rows, for the level that noise may grow with; 0 where they are rounding beside σ.
+/// Predicted values of the fitted rows, as the level with which noise may grow; 0 if they are only rounding beside σ.
 Eigen::VectorXd levels(const Evidence& evidence, const Fit& fit, const Eigen::VectorXd& sd) {
   Eigen::VectorXd level = Eigen::VectorXd::Zero(sd.size());
   for (const Curve& curve : evidence.curves)
@@ -109,7 +109,7 @@ double range_of(const Eigen::VectorXd& level, const Curve& curve) {
   return own.maxCoeff() - own.minCoeff();
 }
 
-/// Rows that stand apart from the rest by more than chance, one after the other, each given a column of its own.
+/// Rows that differ from the rest by more than chance, found one after the other; each gets its own column.
 RestrictedVariance without_single_rows(VarianceProblem& problem, std::vector<bool>& alone) {
   RestrictedVariance found = restricted_variance(problem);
   const Eigen::Index n = problem.residuals.size();
@@ -256,7 +256,7 @@ NoiseEstimate encompassing_noise(const Evidence& evidence, const Fit& fit,
     const double nu = found.freedom[g], d = moderated ? others.freedom : 0;
     const double variance =
         (nu * found.variance[g] + d * of_others) / (nu + d) * open.unit[observable] * open.unit[observable];
-    // Where nothing is predicted, there is nothing that noise could be a share of.
+    // Without a predicted value, relative noise has no reference.
     const double relative = largest[g] > 0 ? std::sqrt(variance * growing.share[observable]) / largest[g] : 0;
     for (NoiseSource& source : estimate.sources) {
       if (source.test != curve.test || source.channel != curve.channel) continue;

@@ -10,7 +10,7 @@
 
 namespace tunica::diagnosis {
 
-/// Whether some channel's noise is for the residuals to say.
+/// Whether the noise of some channel has to be estimated from residuals.
 bool has_open_noise(const Evidence& evidence);
 
 /// Noise of the open channels (`NoiseSource::open`) by restricted likelihood (assembly/restricted_variance.hpp): from
@@ -20,12 +20,12 @@ bool has_open_noise(const Evidence& evidence);
 ///   evidence: those of which the span so far leaves most come first, until it leaves less than a quarter of each,
 ///   sixty of them are in it, or it has half of the rows.
 ///
-/// Each channel has a variance of its own; the channels of an observable share one where one of them is left with
-/// fewer than four degrees of freedom, and channels of few degrees of freedom are moderated by the others, by what
-/// share of its range the noise of a channel is (moderation.hpp). A part that grows with the value is seen by
-/// observable. Single rows that stand apart from all that take no part. σ is never below the resolution of the values.
+/// Each channel has its own variance. The channels of an observable share one if any of them has fewer than four
+/// degrees of freedom left. Channels with few degrees of freedom are moderated by the others, on the scale of noise
+/// over range (moderation.hpp). The part that grows with the value is estimated by observable. Single outlying rows are
+/// excluded. σ is never below the resolution of the values.
 ///
-/// What is as rough as noise from row to row is in it.
+/// Any misfit that is as rough as noise from row to row counts as noise.
 struct NoiseEstimate {
   std::vector<NoiseSource> sources;  ///< of all channels of the tests, in the order of the evidence
   EstimatedNoise from;               ///< in whitened rows of the evidence it came from; the span not orthonormal
@@ -33,8 +33,7 @@ struct NoiseEstimate {
 NoiseEstimate encompassing_noise(const Evidence& evidence, const Fit& fit,
                                  const std::vector<const Eigen::VectorXd*>& signatures);
 
-/// The evidence under these sources of noise: the base fitted again from where it was, and what its noise was taken
-/// from.
+/// The evidence under these sources of noise: the base is fitted again from its last point.
 Evidence restated(const Inquiry& inquiry, const Evidence& evidence, const NoiseEstimate& estimate);
 
 /// σ of every whitened row, 1 of rows that are no channel's; gross rows as their neighbours.

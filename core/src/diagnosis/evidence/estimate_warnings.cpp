@@ -83,7 +83,7 @@ std::vector<Warning> estimate_warnings(const Evidence& evidence, const Fit& best
   std::vector<Warning> warnings{noise_warning(open)};
   const auto correlation = row_correlation(evidence, best);
   if (correlation && correlation->value > significant * correlation->sd) {
-    // What is put back for the projection may carry the estimate beyond what a correlation can be.
+    // The correction for the projection may push the estimate beyond ±1.
     constexpr double nearly_all = 0.95;
     const std::string size = correlation->value > nearly_all
                                  ? "near 1"

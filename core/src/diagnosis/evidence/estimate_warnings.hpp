@@ -7,13 +7,13 @@
 
 namespace tunica::diagnosis {
 
-/// What a reader has to know of noise that nobody stated: where σ of each channel is from, which channels the
-/// differences of neighbouring rows contradict by more than chance, and whether rows share their errors. `best`: the
-/// fit whose residuals it was taken from.
+/// Warnings about unstated noise: the source of each channel's σ, the channels where differences of neighbouring rows
+/// contradict it by more than chance, and whether errors of rows are correlated. `best` is the fit whose residuals gave
+/// the noise.
 std::vector<Warning> estimate_warnings(const Evidence& evidence, const Fit& best);
 
-/// P-value of so large a difference between an estimated σ and that of neighbouring rows, taken as independent; 1 where
-/// one of them is missing.
+/// P-value of the difference between an estimated σ and that of neighbouring rows, under independence; 1 if one of them
+/// is missing.
 double contradiction(const NoiseSource& source);
 
 }  // namespace tunica::diagnosis

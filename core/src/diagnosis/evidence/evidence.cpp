@@ -23,7 +23,7 @@ Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross)
   for (const std::string& text : evidence.base->layout().warnings)
     evidence.warnings.push_back({WarningKind::base_model, text});
   if (!has_open_noise(evidence)) return evidence;
-  // Signatures are taken at a fit that gives every channel about the weight that it will have.
+  // Signatures are computed at a fit with approximately the final weight of every channel.
   return restated(inquiry, evidence, encompassing_noise(evidence, evidence.fit, {}));
 }
 

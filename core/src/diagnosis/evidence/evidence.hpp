@@ -14,7 +14,7 @@
 
 namespace tunica::diagnosis {
 
-/// What the noise of some channels was estimated from: the rest of their whitened rows, outside a span.
+/// The basis of an estimated noise: the part of the whitened rows outside a span.
 struct EstimatedNoise {
   Eigen::MatrixXd span;                  ///< orthonormal; no columns where nothing was estimated
   std::vector<std::size_t> group;        ///< by row: the variance that it has a share in; assembly::known_variance
@@ -23,7 +23,8 @@ struct EstimatedNoise {
   Eigen::MatrixXd variance = {};         ///< of a row (rows) if it grows so (columns), over what was taken
 };
 
-/// What the data say of the base model: noise stated for every channel, gross rows silenced, the model fitted.
+/// The evidence of the data about the base model: every channel has a noise, gross rows are silenced, the model is
+/// fitted.
 struct Evidence {
   experiment::Experiment experiment;  ///< with noise stated for every channel
   experiment::RunEntry run;
@@ -37,11 +38,11 @@ struct Evidence {
   std::vector<Warning> noise_warnings = {};  ///< of what the noise was taken from
 };
 
-/// `gross`: rows to leave out. Throws InputError where data or names do not fit, BaseFitFailure where the base model
+/// `gross`: rows to leave out. Throws InputError if data or names do not match, and BaseFitFailure if the base model
 /// cannot be evaluated.
 Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross);
 
-/// How far the base fit misses the rows whose noise is stated, judged as a run judges it; of no rows where none is.
+/// The misfit of the base fit in the rows with stated noise, judged as in a run; without any such rows it is empty.
 assembly::Misfit stated_misfit(const Evidence& evidence);
 
 }  // namespace tunica::diagnosis

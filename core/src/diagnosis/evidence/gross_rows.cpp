@@ -33,9 +33,10 @@ GrossRow gross_row(const Evidence& evidence, const Curve& curve, std::size_t row
   return found;
 }
 
-/// How far a residual lies from the straight line through two neighbours (on either side; at an end both on one), in
-/// its standard deviations; 0 where a neighbour is almost as large, for then they are part of one shape. So it is at an
-/// end where the rows before already turn that way: a curve that leaves the model at its end does so faster and faster.
+/// The distance of a residual from the straight line through two neighbours, in its standard deviations. The neighbours
+/// are one on either side, or at an end both on one side. It is 0 if a neighbour is almost as large, because both then
+/// belong to one shape. It is also 0 at an end if the rows before bend the same way: a curve that departs from the
+/// model at its end departs progressively.
 double contrast(const Evidence& evidence, const Curve& curve, Eigen::Index k) {
   if (curve.count < 4) return 0;
   const auto residual = [&](Eigen::Index row) { return -evidence.fit.residuals[curve.first + row]; };
@@ -58,7 +59,7 @@ std::vector<GrossRow> gross_rows(const Evidence& evidence) {
   std::vector<GrossRow> found;
   const auto& channels = evidence.base->layout().channels;
   for (const Curve& curve : evidence.curves) {
-    // Neighbours in a field are not those in the file, so that a steep place would pass for gross errors.
+    // Neighbours in a field are not neighbours in the file, so a steep place would pass for gross errors.
     if (std::ranges::any_of(channels, [&](const assembly::MeasuredChannel& view) {
           return view.test == curve.test && view.observable == curve.channel && view.is_field();
         }))

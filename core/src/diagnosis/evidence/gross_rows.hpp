@@ -10,9 +10,9 @@ namespace tunica::diagnosis {
 
 constexpr double gross_score = 16;  ///< of a row by itself, (r/σ)²
 
-/// Rows with a score of their own above 16 (one in eighty data sets of 200 rows has such a one by chance), and more
-/// than four standard deviations from the mean of their neighbours: a mechanism moves neighbours too. None where they
-/// are more than one row in thirty, for then it is no matter of single rows.
+/// Rows with a score above 16 that also lie more than four standard deviations from the mean of their neighbours. By
+/// chance, one in eighty data sets of 200 rows has such a score. A mechanism would move the neighbours too. None if
+/// they are more than one row in thirty, because the fault is then not in single rows.
 std::vector<GrossRow> gross_rows(const Evidence& evidence);
 
 /// The experiment in which these rows are gross: every fit leaves them out.

@@ -58,13 +58,14 @@ class Descent {
       const Eigen::VectorXd moved = trial - x_, linear = J_ * moved;
       const double expected = -(2 * r_.dot(linear) + linear.squaredNorm());
       if (!(expected > promised)) {
-        // A step that bounds cut off may lead up; one nearer to steepest descent does not.
+        // A step that bounds cut off may lead uphill; a step closer to steepest descent does not.
         if (expected <= 0 && (moved(moving) - step).norm() > 1e-9 * step.norm() && damping < 1e8) {
           damping *= 10;
           shortened = true;
           continue;
         }
-        // A secant Jacobian that sees no way down is asked again once, if anything has moved since it was exact.
+        // If a secant Jacobian gives no descent, it is recomputed once, provided that the point has moved since it was
+        // exact.
         if (secant && !fresh && evaluations_ + 2 < max_evaluations && gained_ > 1) {
           if (!evaluate(r_, &J_).ok()) break;
           fresh = true;
@@ -142,10 +143,11 @@ class Descent {
                                          : parameter.max - parameter.min;
   }
 
-  /// Whether the last steps together gained next to nothing: the floor of a valley that data do not close.
+  /// Whether the last steps together gained almost nothing, as on the floor of a valley that the data leave open.
   bool creeps(double squares) {
     passed_.push_back(squares);
-    // Beside a misfit of k times the noise, k² times as much says nothing, up to what a comparison of fits may turn on.
+    // With a misfit of k times the noise, a gain k² times as large is insignificant, up to what a comparison of fits
+    // resolves.
     constexpr double decides = 0.5;
     const double large = std::max(squares / static_cast<double>(r_.size()), 1.0);
     const double negligible = std::max(data_.negligible, std::min(data_.negligible * large, decides));

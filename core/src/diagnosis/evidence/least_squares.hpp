@@ -12,7 +12,7 @@
 
 namespace tunica::diagnosis {
 
-/// Free parameters of an assembly that move together, because they are one quantity of several tests.
+/// Free parameters of an assembly that move together because they are one quantity in several tests.
 using Variable = std::vector<std::size_t>;
 
 struct Fit {
@@ -29,15 +29,15 @@ struct Fit {
 struct DataVariant {
   const Eigen::VectorXd* added = nullptr;      ///< to the whitened residuals: simulated noise instead of the real one
   const std::vector<bool>* counted = nullptr;  ///< rows that are fitted; null = all
-  /// A fit is of use only below this |r|². It ends above it once a step promises less than a hundredth of what is
-  /// missing, several times in a row: that is another minimum.
+  /// A fit is useful only below this |r|². It stops above it if several steps in a row promise less than a hundredth of
+  /// the remaining difference: the search is then in another minimum.
   double wanted = std::numeric_limits<double>::infinity();
   /// A fit ends where six steps down together lower |r|² by less than this, times |r|²/n where that is above 1, 0.5 at
   /// most.
   double negligible = 0;
 };
 
-/// Of |r|²: no verdict and no threshold turns on it.
+/// Of |r|²: too small to affect any verdict or threshold.
 inline constexpr double says_nothing = 0.01;
 
 /// Minimises the whitened squares over some of the parameters, the others stay where `start` has them, within the
@@ -46,8 +46,8 @@ inline constexpr double says_nothing = 0.01;
 /// it leave the step. Where Jacobians are differences of whole simulations, Broyden's update (algorithm 3.30 there)
 /// stands in for most of them. It ends when a step promises to lower |r|² by less than 1e-6: far below the noise.
 ///
-/// Why not an optimiser plugin: a diagnosis makes hundreds of fits of a few milliseconds with variables tied and others
-/// held, and one Jacobian of a model with history costs as much as twenty evaluations.
+/// It is not an optimiser plugin because a diagnosis makes hundreds of fits of a few milliseconds, with some variables
+/// tied and others held. One Jacobian of a model with history costs as much as twenty evaluations.
 Fit least_squares(const assembly::Assembly& assembly, const std::vector<Variable>& variables,
                   std::span<const double> start, assembly::Workspace& workspace, std::size_t max_evaluations = 60,
                   const DataVariant& data = {});

@@ -11,7 +11,7 @@ namespace tunica::diagnosis {
 namespace {
 
 constexpr std::size_t least_channels = 4;
-constexpr double least_scatter = 0.15;  ///< of ln σ²: no two instruments are as alike as that
+constexpr double least_scatter = 0.15;  ///< of ln σ²: no two instruments agree more closely
 
 /// x with ψ′(x) = y, by bisection of ln x.
 double trigamma_inverse(double y) {

@@ -5,13 +5,13 @@
 
 namespace tunica::diagnosis {
 
-/// What the variances of some channels, each from few degrees of freedom, say of one another.
+/// Moderation of the variances of several channels with few degrees of freedom by one another.
 struct Moderation {
-  double freedom = 0;  ///< degrees of freedom that the others are worth; 0: nothing
-  double ratio = 1;    ///< variance over the square of the reference that they speak for
+  double freedom = 0;  ///< prior degrees of freedom from the others; 0: none
+  double ratio = 1;    ///< prior variance over the square of the reference
 };
 
-constexpr double least_freedom = 1.5;  ///< of a variance that is learned from residuals at all
+constexpr double least_freedom = 1.5;  ///< of a variance estimated from residuals
 
 /// Empirical Bayes (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3:3, 2004): with ratios s²/reference² of ν degrees of
 /// freedom each, and their true values scattered as d/χ²_d about one ratio,

@@ -14,7 +14,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// Deviations from the row means, with what their variance loses by the mean: m/(m − 1) restores it.
+/// Deviations from the row means; the factor m/(m − 1) corrects the bias of their variance.
 struct Deviations {
   std::vector<double> level, square;  ///< |row mean|, unbiased square
 };
@@ -94,7 +94,7 @@ std::pair<double, double> neighbours(const data::Channel& channel, const data::N
 /// Effective degrees of freedom of the difference estimator: its n terms overlap (Gasser et al. 1986: var = 35/9 σ⁴/n).
 constexpr double difference_share = 18.0 / 35;
 
-/// What σ is at least: that of rounding to the step of the values, and the digits in which simulations are exact.
+/// The lower bound of σ: rounding to the step of the values, and the accuracy of simulations.
 double resolution_of(const data::Channel& channel) {
   constexpr double exact_digits = 1e-5;
   double largest = 0;
@@ -143,7 +143,7 @@ struct Correlation {
   [[nodiscard]] double sd() const { return 1 / std::sqrt(freedom); }
 };
 
-/// One value for all tests where they agree, as those of one rig do: Σ (ρ − ρ̄)²/sd² within its 95 % point.
+/// One value for all tests if they agree, as on one rig: Σ (ρ − ρ̄)²/sd² within its 95 % point.
 void pool(std::vector<Correlation>& correlations) {
   if (correlations.size() < 2) return;
   Correlation all{""};
@@ -172,7 +172,7 @@ std::vector<NoiseSource> noise_sources(const experiment::Experiment& experiment,
     if (std::find(tests.begin(), tests.end(), entry.name) == tests.end()) continue;
     const auto& observables = catalogue.tests().find(entry.type)->second.factory.observables;
     const data::Dataset dataset = data::read_dataset(entry.data, observables);
-    // What is held out takes no part; a test that is held out as a whole needs a noise of its own all the same.
+    // Held-out rows are excluded; a test that is held out as a whole still needs its own noise.
     const std::vector<bool> fitted =
         entry.hold_out.all ? std::vector<bool>(dataset.count, true) : assembly::fitted_rows(entry, dataset);
     Correlation correlation{entry.name};

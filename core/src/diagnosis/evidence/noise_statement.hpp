@@ -11,7 +11,7 @@
 
 namespace tunica::diagnosis {
 
-/// Where the noise of a channel is known from, and how well.
+/// The source of a channel's noise, and its accuracy.
 struct NoiseSource {
   enum class Kind { stated, replicates, encompassing, differences };
   std::string test, channel, unit;
@@ -20,15 +20,15 @@ struct NoiseSource {
   double freedom = 0;         ///< degrees of freedom of σ²; 0 = known
   double correlation_sd = 0;  ///< standard deviation of the estimated correlation
 
-  /// Neither stated nor from replicates: it is for the residuals to say (encompassing_noise.hpp).
+  /// Neither stated nor from replicates: estimated from residuals (encompassing_noise.hpp).
   [[nodiscard]] bool open() const { return kind == Kind::encompassing || kind == Kind::differences; }
   double neighbours = 0;          ///< open: σ from differences of neighbouring rows; 0 where there are none
   double neighbours_freedom = 0;  ///< degrees of freedom of that
-  double resolution = 0;          ///< open: what σ is at least, from the step of the values or their digits
+  double resolution = 0;          ///< open: lower bound of σ, from the step of the values or their digits
 };
 
-/// How large the noise of every channel of the tests is, so that every model is judged by the same: what the file
-/// states stays. Else
+/// The noise of every channel of the tests, so that every model is judged by the same noise. Stated noise stays as it
+/// is. Otherwise
 ///
 ///   replicates: σ² = a² + (b y)² fitted to the squared deviations from the row means (b only where it raises the
 ///               likelihood by more than 4), and the correlation of neighbouring deviations, pooled over channels and

@@ -29,7 +29,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// What the file asks of the run and a diagnosis does not keep to.
+/// Settings of the run that a diagnosis ignores.
 std::optional<Warning> constraints_warning(const experiment::RunEntry* run) {
   if (run == nullptr || run->constraints.empty()) return std::nullopt;
   std::vector<std::string> types;
@@ -46,7 +46,7 @@ struct Weightless {
   std::vector<Warning> warnings;
 };
 
-/// Weights say what a channel is worth to a run; here its noise does. But one of weight 0 takes no part.
+/// A run weights channels by their weights, a diagnosis by their noise. A channel of weight 0 is excluded from both.
 Weightless without_weights(experiment::Experiment experiment, const std::vector<std::string>& tests,
                            const plugins::Catalogue& catalogue) {
   std::vector<Warning> warnings;
@@ -80,7 +80,7 @@ Weightless without_weights(experiment::Experiment experiment, const std::vector<
   return {std::move(experiment), std::move(warnings)};
 }
 
-/// Whether something with memory is in the base or was asked for by name, so that rows have to stay as they are.
+/// Whether the base has memory, or a mechanism with memory was requested by name. Rows then keep their order.
 bool asks_for_memory(const Inquiry& inquiry) {
   const std::vector<std::string>& asked = inquiry.request.mechanisms;
   return std::any_of(asked.begin(), asked.end(),
@@ -92,8 +92,8 @@ struct Ordered {
   std::vector<Warning> warnings;
 };
 
-/// Rows of unknown order stand by their values, so that nothing can depend on where the file has them. Only what has
-/// memory needs them as the file has them, and then a warning says so.
+/// Rows of unknown order are sorted by their values, so results cannot depend on their order in the file. Only models
+/// and mechanisms with memory need the file's order, and a warning then says so.
 Ordered with_orders(const Inquiry& inquiry, experiment::Experiment experiment, const experiment::RunEntry& run) {
   const bool asked = asks_for_memory(inquiry);
   std::vector<assembly::TestPast> assumed;

@@ -11,9 +11,9 @@
 
 namespace tunica::diagnosis {
 
-/// The experiment as diagnosis sees it: every channel with its noise, weights of one, whitened least squares of one
-/// model over all tests of the first run (all tests where there is none), no constraints. Channels of weight 0 take no
-/// part. Rows of unknown order stand sorted.
+/// The experiment for a diagnosis: every channel with its noise, weights of one, no constraints. It is a whitened
+/// least-squares fit of one model to all tests of the first run, or to all tests if there is no run. Channels of weight
+/// 0 are excluded. Rows of unknown order are sorted.
 struct Preparation {
   experiment::Experiment experiment;
   experiment::RunEntry run;

@@ -5,10 +5,10 @@
 
 namespace tunica::diagnosis {
 
-/// An orthonormal basis of the columns, each brought to length one first; what is then shorter than `least` left out.
+/// An orthonormal basis of the columns, each first scaled to unit length. Directions shorter than `least` are left out.
 Eigen::MatrixXd basis(Eigen::MatrixXd columns, double least);
 
-/// What a refit of the fitted parameters absorbs: an orthonormal basis of the columns of J.
+/// The directions that a refit of the parameters absorbs: an orthonormal basis of the columns of J.
 class Projection {
  public:
   Projection() = default;

@@ -7,7 +7,7 @@
 
 namespace tunica::diagnosis {
 
-/// How alike errors of neighbouring rows are, and its standard deviation where they are independent.
+/// The correlation of errors in neighbouring rows, and its standard deviation under independence.
 struct RowCorrelation {
   double value = 0, sd = 0;
 };
@@ -18,7 +18,7 @@ struct RowCorrelation {
 ///
 ///   ρ = rᵀPKPr / 2 tr(PKPK),   sd² = 1 / 2 tr(PKPK);
 ///
-/// the projection, which by itself makes neighbours unlike, is so accounted for. None where nothing is estimated.
+/// This corrects for the projection, which by itself makes neighbours less alike. None if no noise is estimated.
 std::optional<RowCorrelation> row_correlation(const Evidence& evidence, const Fit& fit);
 
 }  // namespace tunica::diagnosis

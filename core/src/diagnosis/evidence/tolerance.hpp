@@ -7,8 +7,8 @@
 
 namespace tunica::diagnosis {
 
-/// What is no longer worth caring about. It is no noise: real curves scatter by 0.2 % of their range, and no model of a
-/// tissue follows them better than 1–3 %.
+/// The smallest misfit that matters. It is not the noise: real curves scatter by 0.2 % of their range, but no model of
+/// a tissue follows them more closely than 1–3 %.
 struct Tolerance {
   enum class Origin { stated, repeats, cohort, standard };
   double share = 0.02;  ///< of the range; of channels with their own, averaged as squares over rows

@@ -7,9 +7,8 @@
 
 namespace tunica::diagnosis {
 
-/// Warns of channels with purely relative noise where the rows near zero, σ below 0.3 of the channel's median, carry
-/// most of an |r|² that is no noise (above 3 a row): no instrument reads zero to nothing, and what is called a misfit
-/// there may be none.
+/// Warns of channels with purely relative noise if the rows near zero (σ below 0.3 of the channel's median) carry most
+/// of |r|², and |r|² exceeds 3 per row. No instrument reads zero without error, so the misfit there may not be real.
 std::optional<Warning> vanishing_noise_warning(const Evidence& evidence);
 
 }  // namespace tunica::diagnosis

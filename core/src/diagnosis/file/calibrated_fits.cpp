@@ -21,14 +21,14 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr std::size_t most_fits = 12;  ///< corrections, those that see most
+constexpr std::size_t most_fits = 12;  ///< corrections with the largest score
 constexpr double least_seen = 6;       ///< of |r|², at the null
 constexpr std::size_t full_search = 60, short_search = 30;
 constexpr std::size_t calibration_starts = 3;
 constexpr std::size_t quick_again_calibrated = 3;  ///< that are begun again at random points, those that take most
 constexpr double smallest_gain = 2;                ///< of |r|²: less is no explanation
 
-/// A correction at its null, and what it sees of the residuals.
+/// A correction at its null, and its score on the residuals.
 struct Seen {
   const Correction* correction = nullptr;
   std::shared_ptr<const Extension> extension;
@@ -94,7 +94,7 @@ class Calibrating {
     }
   }
 
-  /// With its amplitudes and its weight; none where it explains nothing, or nobody would believe it.
+  /// With its amplitudes and its weight; none if it explains nothing or is implausible.
   [[nodiscard]] std::optional<CorrectedFit> weighed(const Seen& seen, CorrectedFit corrected) const {
     if (corrected.fit.residuals.size() == 0 || !(corrected.fit.chi2 < evidence_.fit.chi2 - smallest_gain))
       return std::nullopt;

@@ -7,9 +7,9 @@
 
 namespace tunica::diagnosis {
 
-/// Corrections with an amplitude, fitted beside all parameters of the base: those whose signature at the null sees most
-/// of the residuals. What ends at a bound, or beyond what is plausible, explains nothing and is left out. A fit pays ln
-/// n a amplitude, as in BIC.
+/// Corrections with an amplitude, fitted together with all parameters of the base. Those with the largest score at the
+/// null are fitted. A correction that ends at a bound or is implausible explains nothing and is left out. A fit pays ln
+/// n per amplitude, as in BIC.
 std::vector<CorrectedFit> calibrated_fits(const Inquiry& inquiry, const Analysis& analysis, const Record& record,
                                           const Corrections& corrections);
 

@@ -71,7 +71,7 @@ class Fitting {
     corrected.log_weight = corrected.correction->log_prior - corrected.fit.chi2 / 2;
   }
 
-  /// One that is better than the base fit by more than nothing.
+  /// One that is noticeably better than the base fit.
   [[nodiscard]] bool helps(const CorrectedFit& corrected) const {
     return corrected.fit.chi2 < evidence_.fit.chi2 - gain_of_note;
   }
@@ -93,7 +93,7 @@ class Fitting {
   const Record& record_;
 };
 
-/// Corrections that are fitted one after the other: a side of a ladder, from the least factor, or one by itself.
+/// Corrections that are fitted in order: one side of a ladder from the smallest factor, or a single correction.
 using Climb = std::vector<const Correction*>;
 
 std::vector<Climb> climbs_of(const Corrections& corrections) {

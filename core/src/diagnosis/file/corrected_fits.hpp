@@ -24,7 +24,7 @@ struct CorrectedFit {
 std::vector<CorrectedFit> corrected_fits(const Inquiry& inquiry, const Analysis& analysis, const Record& record,
                                          const Corrections& corrections);
 
-/// Whether the base model leaves noise where the data are read as this correction says.
+/// Whether the base model leaves only noise if the data are read with this correction.
 bool leaves_noise(const Inquiry& inquiry, const Analysis& analysis, const Record& record, const Correction& correction);
 
 /// P-value of what a corrected fit leaves: smooth shapes, and all mechanisms.

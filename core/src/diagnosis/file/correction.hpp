@@ -12,22 +12,22 @@
 
 namespace tunica::diagnosis {
 
-/// One thing that the file may say and that is not so: an exact transform of the data, or of what they were taken for,
-/// without a parameter; or mechanisms, each with its amplitude.
+/// One possible mistake in the file. It is an exact transform of the data or their meaning, without a parameter; or one
+/// or more mechanisms, each with its amplitude.
 struct Correction {
   FileKind kind = FileKind::unit;
   std::vector<std::string> tests;
-  bool common = false;   ///< the same mistake in all tests that it can be in, not in one of them
+  bool common = false;   ///< the same mistake in all tests that can have it, not only in one
   std::string sentence;  ///< "the stresses of 'axial' are first Piola–Kirchhoff stresses, not Cauchy stresses"
   std::string mend;      ///< what to write into the file
   std::function<bool(Record&)> apply;
   double log_prior = 0;  ///< of this mistake, before the data
-  /// Factors on the same numbers are rungs of one ladder, at their logarithms: where one rung is worse than the one
-  /// before it, those beyond are worse still. Empty: no ladder.
+  /// Factors on the same numbers are rungs of one ladder, placed at their logarithms. If a rung is worse than the one
+  /// before, later rungs are worse still. Empty: no ladder.
   std::string ladder = {};
   double rung = 0;
   std::vector<Addition> additions = {};  ///< of one mechanism, in place of `apply`
-  std::vector<Change> changes = {};      ///< the mend for programs; empty: it is no matter of keys
+  std::vector<Change> changes = {};      ///< the correction for programs; empty: no change of keys corrects it
 };
 
 using Corrections = std::vector<Correction>;
@@ -45,7 +45,7 @@ void add_stress_measures(const Record& record, const std::vector<std::string>& t
 void add_strain_definitions(const Record& record, const std::vector<std::string>& tests, Corrections& all);
 void add_exchanges(const Record& record, const std::vector<std::string>& tests, Corrections& all);
 void add_signs(const Record& record, const std::vector<std::string>& tests, Corrections& all);
-/// `scale_is_seen`: one factor on all stresses is not taken up by the parameters.
+/// `scale_is_seen`: the parameters do not absorb a common factor on all stresses.
 void add_units(const Record& record, const std::vector<std::string>& tests, bool scale_is_seen, Corrections& all);
 void add_tube_sizes(const Record& record, const std::vector<std::string>& tests, Corrections& all);
 void add_angles(const Record& record, const experiment::RunEntry& run, const plugins::Catalogue& catalogue,
@@ -55,7 +55,7 @@ void add_clocks(const Inquiry& inquiry, const Record& record, const experiment::
 void add_calibrations(const Record& record, const std::vector<std::string>& tests, const plugins::Catalogue& catalogue,
                       Corrections& all);
 
-/// What is so, of fitted amplitudes.
+/// The corrected statement, with fitted amplitudes.
 std::string calibration_words(const Correction& correction, const std::vector<Amplitude>& amplitudes,
                               const plugins::Catalogue& catalogue);
 

@@ -7,7 +7,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// Findings that speak of the file, not of the specimen.
+/// Findings about the file, not about the specimen.
 constexpr std::array bookkeeping{data::FindingKind::record_repeated, data::FindingKind::record_coarse,
                                  data::FindingKind::record_sign,     data::FindingKind::record_percent,
                                  data::FindingKind::record_angle,    data::FindingKind::record_time,

@@ -7,9 +7,9 @@
 
 namespace tunica::diagnosis {
 
-/// What shows without a fit: blocks of rows that stand in a file twice, values on a coarse grid, signs, percent,
-/// radians and times that no such test has; and words in the header of a column that say another stress or strain than
-/// the file declares.
+/// Mistakes that show without a fit: repeated blocks of rows, values on a coarse grid, and signs, percentages, radians
+/// and times that are impossible in such a test. Also column headers that name another stress or strain than the file
+/// declares.
 std::vector<Suspect> inspected(const Evidence& evidence);
 
 }  // namespace tunica::diagnosis

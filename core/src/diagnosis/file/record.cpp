@@ -90,7 +90,7 @@ Record::Record(experiment::Experiment experiment, const std::vector<std::string>
   for (experiment::TestEntry& entry : experiment_.tests) {
     if (std::find(tests.begin(), tests.end(), entry.name) == tests.end()) continue;
     entry.data.given = std::make_shared<const data::Dataset>(data::read_dataset(entry.data, observables(entry.name)));
-    // They are sorted, and stand so whatever their values become.
+    // They are sorted, and keep this order if their values change.
     entry.data.sorted = false;
   }
 }

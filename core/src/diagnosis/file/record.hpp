@@ -11,11 +11,11 @@
 
 namespace tunica::diagnosis {
 
-/// The experiment with the data of its tests in memory, read once, to be taken for something else than the file says.
-/// A copy shares the data until it changes them.
+/// The experiment with the data of its tests in memory, read once. Corrections reinterpret these data. A copy shares
+/// the data until it changes them.
 ///
-/// Noise belongs to the numbers of the file. So what scales a value scales its σ, and |r|² of two readings of one file
-/// can be compared: the Jacobian of the transform is that of the σ.
+/// Noise belongs to the numbers of the file, so a factor on a value also scales its σ. |r|² of two readings of one file
+/// is therefore comparable: the Jacobian of the transform is that of the σ.
 class Record {
  public:
   /// Reads the data of these tests; their noise has to be stated.
@@ -28,7 +28,7 @@ class Record {
   [[nodiscard]] const data::Dataset& data(std::string_view test) const { return *experiment_.test(test).data.given; }
   [[nodiscard]] const std::vector<Observable>& observables(std::string_view test) const;
 
-  // Each returns whether the result can be a measurement; where it cannot, the record is of no use any more.
+  // Each returns whether the result is a possible measurement; otherwise the record must not be used any more.
   using Map = std::function<double(double)>;
   /// An abscissa, value by value. Stresses that the file has as forces stay the same forces.
   bool map_abscissa(std::string_view test, std::string_view abscissa, const Map& map);

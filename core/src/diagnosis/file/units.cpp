@@ -18,7 +18,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// What numbers are multiplied by where a unit, an area or a prefix is another one than the file says.
+/// The factor on numbers whose unit, area or prefix differs from the file's statement.
 constexpr std::array factors{
     1000.0, 9.80665, 10.0, 10.19716, 7.500617, 6.894757, 4.448222, 4.0, 2.0, 1.359510, 4 / 3.14159265358979};
 
@@ -33,7 +33,7 @@ struct Numbers {
   std::string abscissa = {};          ///< or an abscissa
 };
 
-/// The unit that makes the factor out of the one that the column is said to have; none where no usual one does.
+/// The unit that differs by the factor from the column's declared unit; none if no usual unit does.
 std::optional<std::string> unit_of_factor(const std::string& stated, double factor) {
   constexpr double as_good_as = 0.001;
   for (const auto* const units : {&stress_units, &force_units, &length_units})
@@ -83,7 +83,7 @@ std::string mending(const Record& record, const std::vector<std::string>& tests,
                       : fmt::format("{} times {:.6g}: in a unit, an area or a thickness", where, factor);
 }
 
-/// Another unit in each test; nothing where one of them has none that makes the factor, or cannot have it.
+/// Another unit in each test; none if one of them has no unit with this factor, or cannot have it.
 std::vector<Change> changes_of(const Record& record, const std::vector<std::string>& tests, const Numbers& numbers,
                                double factor) {
   std::vector<Change> changes;

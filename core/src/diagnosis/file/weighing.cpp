@@ -16,16 +16,16 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// Margins in units of BIC, calibrated on files that are not so and on honest files with a real effect.
+/// Margins in units of BIC, calibrated on wrong files and on correct files with a real effect.
 constexpr double ahead_by = 6, near_within = 6;
-/// A mistake that takes nearly all of the misfit, and far more than any cause, is worth a question where it leaves a
-/// little more than noise: noise is seldom stated to the per cent.
+/// A mistake that explains nearly all of the misfit, and far more than any cause, becomes a question even if it leaves
+/// slightly more than noise. Noise is rarely stated to within a per cent.
 constexpr double nearly_clean = 1e-4, nearly_all = 0.95, far_ahead = 20;
-/// What a cause loses whose amplitude is implausible, or at its bound. A factor of two is one for a gain.
+/// The penalty of a cause whose amplitude is implausible or at its bound. A factor of two counts for a gain.
 constexpr double unbelievable = 20;
 constexpr std::size_t most_causes = 6;  ///< that are tested and listed
 
-/// S of what is claimed, more where nobody would believe it; infinite where nothing is claimed.
+/// S of the claim, with a penalty if it is implausible; infinite without a claim.
 double score_of_claim(const Inquiry& inquiry, const Analysis& analysis, const Explanation& explanation) {
   const Claim& claim = explanation.claim;
   if (!claim.best) return INFINITY;
@@ -105,7 +105,7 @@ std::shared_ptr<const experiment::Experiment> mended(const Inquiry& inquiry, con
 Explanation weighed_with_file(const Inquiry& inquiry, const Analysis& analysis, Explanation explanation) {
   FileFindings& file = explanation.file;
   const Evidence& evidence = analysis.evidence;
-  // Who names mechanisms asks about them alone.
+  // A request that names mechanisms concerns only these.
   const bool asked = inquiry.request.considers("file") && inquiry.request.mechanisms.empty();
   if (!asked || evidence.base->layout().has_costly_tests) return explanation;
   file.wrong_files = inquiry.request.wrong_files;

@@ -7,11 +7,11 @@
 
 namespace tunica::diagnosis {
 
-/// The amplitudes of an addition: what was found from the data, else what the mechanism declares.
+/// The amplitude range of an addition: from the data, or else as the mechanism declares it.
 AmplitudeRange range_of(const MechanismFactory& mechanism, const Addition& addition);
 
-/// The range of an amplitude whose size depends on the specimen; none where the mechanism's own range holds for all
-/// data. Of one that acts on a channel, and is no error of the record, the plausible ones span the channel. Of
+/// The range of an amplitude whose size depends on the specimen; none if the mechanism's own range holds for all data.
+/// If the mechanism acts on a channel and is not an error of the record, plausible amplitudes span the channel. For
 /// MechanismFactory::plausible_effect = q,
 ///
 ///   |a − null| ≤ q min_c (max y_c − min y_c)/max_i |∂f_ci/∂a|

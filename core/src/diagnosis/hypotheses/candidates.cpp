@@ -97,13 +97,13 @@ class CandidateSearch {
   }
 
  private:
-  /// Whether it acts along directions that the model does not have, and nobody asked for it.
+  /// Whether it acts along directions that the model lacks, and was not requested by name.
   [[nodiscard]] bool lacks_directions(const MechanismFactory& mechanism, const std::string& model) const {
     return mechanism.directional && !asked_.contains(mechanism.id) && isotropic_.contains(model);
   }
 
-  /// Whether it remembers what nobody says of this test. A sensor needs the order of rows only, a specimen what it bore
-  /// before the first as well.
+  /// Whether it needs a history of this test that is unknown. A sensor needs only the order of rows; a specimen also
+  /// needs its loading before the first row.
   [[nodiscard]] bool lacks_past(const MechanismFactory& mechanism, const std::string& test) const {
     if (!assembly::has_memory(mechanism) || asked_.contains(mechanism.id)) return false;
     const auto found = pasts_.find(test);
@@ -234,7 +234,8 @@ class CandidateSearch {
     for (std::size_t s = 0; s < settings.size(); ++s) {
       const std::vector<double> null = with_setting(extended, mechanism, settings[s], at_null);
       const bool exact = assembly.layout().jacobian_is_exact;
-      // At the null nuisance parameters do nothing: without a Jacobian, one simulation serves all settings.
+      // At the null, nuisance parameters have no effect. Without a Jacobian, one simulation therefore serves all
+      // settings.
       if ((exact || s == 0) && !whitened(assembly, null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
       for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace, quick_)) {
         if (slope.signature.size() == 0) continue;
@@ -298,13 +299,14 @@ class CandidateSearch {
     return all;
   }
 
-  /// The signature at half a plausible amplitude on one side, where a refit leaves another shape of it than of the
-  /// tangent: then it is one more place to look at.
+  /// The signature at half a plausible amplitude on one side, if its shape after a refit differs from that of the
+  /// tangent. It is then one more hypothesis.
   void add_secant(const Extension& extended, const Hypothesis& tangent, double sign, const std::vector<double>& null,
                   const Eigen::VectorXd& bare, assembly::Workspace& workspace, std::vector<Hypothesis>& into) const {
     const MechanismFactory& mechanism = *tangent.mechanism;
     if (tangent.side == MechanismFactory::Side::positive && sign != tangent.sign) return;
-    // A channel's unit is not the mechanism's to know, and what acts on data rows is linear; so is memory, nearly.
+    // A mechanism does not know the unit of a channel. Mechanisms on data rows are linear, and those with memory nearly
+    // so.
     if (!tangent.addition.place.channel.empty() || mechanism.stage == Stage::history) return;
     const AmplitudeRange range = range_of(mechanism, tangent.addition);
     const double reach = sign > 0 ? range.plausible_max - mechanism.null : mechanism.null - range.plausible_min;
@@ -336,7 +338,7 @@ class CandidateSearch {
   Clock clock_;
   bool quick_;
   bool sees_volume_;
-  std::map<std::string, data::Past> pasts_;  ///< of tests, where they are not known
+  std::map<std::string, data::Past> pasts_;  ///< of tests with an unknown past
   std::set<std::string> asked_;              ///< mechanisms, by name
   std::set<std::string> isotropic_;          ///< models, where the tests cannot tell directions apart
 };

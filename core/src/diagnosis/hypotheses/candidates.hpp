@@ -9,8 +9,8 @@
 
 namespace tunica::diagnosis {
 
-/// Every mechanism that was asked for with all its places and settings, and its signatures at the base fit, where a
-/// refit absorbs what `projection` says. Mechanisms side by side; the outcome does not depend on threads.
+/// Every requested mechanism with all its places and settings, and its signatures at the base fit. A refit absorbs the
+/// directions in `projection`. Mechanisms run in parallel; the outcome does not depend on the number of threads.
 std::vector<Candidate> candidates(const Inquiry& inquiry, const Evidence& evidence, const Projection& projection);
 
 }  // namespace tunica::diagnosis

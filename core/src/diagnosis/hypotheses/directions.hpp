@@ -12,7 +12,7 @@
 
 namespace tunica::diagnosis {
 
-/// A projected signature: what of an effect is left when the other parameters are fitted again.
+/// A projected signature: the part of an effect that remains after a refit of the other parameters.
 struct Direction {
   std::size_t candidate = 0, hypothesis = 0;
   Eigen::VectorXd unit;  ///< s̃/|s̃|
@@ -39,7 +39,7 @@ struct Score {
 };
 Score score(const Direction& direction, const Eigen::VectorXd& residuals);
 
-/// What the weight of a hypothesis has beside exp(gain/2): its share among those of its candidate, and its sides.
+/// The factors of a hypothesis's weight besides exp(gain/2): its share within its candidate, and its sides.
 double log_prior(const Direction& direction);
 
 /// The direction of a candidate that is likeliest by its score; none where the candidate leaves no trace.

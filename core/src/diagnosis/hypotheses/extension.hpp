@@ -35,8 +35,8 @@ class Extension {
   [[nodiscard]] const std::vector<std::size_t>& base() const { return base_; }  ///< where the base's parameters are
   /// All parameters, with the base's at `base` and every mechanism at its null.
   [[nodiscard]] std::vector<double> at_null(std::span<const double> base) const;
-  /// The base's, then of every part amplitude and nuisance; or without the nuisance parameters, which then stay where
-  /// they are.
+  /// The parameters of the base, then amplitude and nuisance parameters of every part. Without nuisance parameters,
+  /// these stay fixed.
   [[nodiscard]] std::vector<Variable> variables(bool with_nuisance = true) const;
 
  private:

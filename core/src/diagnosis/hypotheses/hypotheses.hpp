@@ -8,7 +8,7 @@
 
 namespace tunica::diagnosis {
 
-/// What could be wrong, and what the data would show of it.
+/// Possible faults, and their effect on the data.
 struct Hypotheses {
   Projection projection;  ///< what a refit of the base model absorbs
   std::vector<Candidate> candidates;
@@ -22,8 +22,7 @@ struct Hypotheses {
 
 Hypotheses hypotheses_of(const Inquiry& inquiry, const Evidence& evidence);
 
-/// The same hypotheses where only the noise of the evidence is another: signatures in rows of its σ, projected off its
-/// Jacobian.
+/// The same hypotheses under another noise of the evidence: signatures in units of its σ, projected off its Jacobian.
 Hypotheses restated(const Hypotheses& hypotheses, const Evidence& before, const Evidence& after);
 
 /// Signatures of whole curves that a refit leaves something of.

@@ -32,7 +32,7 @@ struct Addition {
   [[nodiscard]] const std::string& name() const { return as.empty() ? id : as; }
 };
 
-/// One amplitude that may differ from its null, and what the data would show of it.
+/// One amplitude that may differ from its null, and its effect on the data.
 struct Hypothesis {
   const MechanismFactory* mechanism = nullptr;
   Addition addition;
@@ -51,8 +51,8 @@ struct Candidate {
   std::vector<Hypothesis> hypotheses;   ///< over places and settings; empty: it leaves no trace in these data
   std::string absent;                   ///< why, in words
   Absence absence = Absence::no_trace;  ///< why; of no meaning where there are hypotheses
-  /// Tests that it is not looked for in, or that keep it out of their material: it has memory, and their past is
-  /// unknown.
+  /// Tests in which the mechanism is not considered, or whose material it cannot act on: it has memory, and their past
+  /// is unknown.
   std::set<std::string> without_past = {};
 };
 

@@ -5,12 +5,12 @@
 
 namespace tunica::diagnosis {
 
-/// Whether the model has no directions of its own: for a rotation Q about no axis of the material,
+/// Whether the model is isotropic: for a rotation Q that is about no material axis,
 ///
 ///   S(Q C Qᵀ) = Q S(C) Qᵀ
 ///
-/// at several C and the initial parameters, to rounding. It is measured and not declared, so it holds for any plugin
-/// and for a model with mechanisms. A response that is not finite counts as one with directions.
+/// at several C and the initial parameters, to rounding. It is computed and not declared, so it works for any plugin
+/// and for a model with mechanisms. A non-finite response counts as anisotropic.
 bool is_isotropic(const Model& model);
 
 }  // namespace tunica::diagnosis

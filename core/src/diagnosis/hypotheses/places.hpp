@@ -24,12 +24,12 @@ struct Clock {
   double shortest = INFINITY, longest = 0;  ///< step and duration
   double pace = 0;                          ///< from row to row, on average
   bool missing = false;                     ///< in some test whose pace is open
-  /// What the pace of the tests without a clock may be: too fast to relax, or that of the others.
+  /// The possible pace of tests without a clock: too fast to relax, or that of the other tests.
   [[nodiscard]] std::vector<double> paces() const;
 };
 Clock clock_of(const experiment::Experiment& experiment, const experiment::RunEntry& run,
                const plugins::Catalogue& catalogue);
-/// Whether nobody knows at what pace a test was pulled: its rows are taken as a first loading, and have no time.
+/// Whether the loading rate of a test is unknown: its rows are a first loading, and have no time.
 bool pace_is_open(const experiment::TestEntry& entry, const data::Dataset& dataset);
 
 bool needs_clock(const MechanismFactory& mechanism);

@@ -26,7 +26,7 @@ std::vector<Slope> slopes_of(const Extension& extended, const MechanismFactory& 
     for (double step = 1e-3 * reach; step > 1e-9 * reach; step /= 10) {
       if (!at(sign * step, whole).ok()) continue;
       if (quick) return (whole - bare) / step;
-      // A tenth of a σ in all is enough to be seen, and little enough to be nearly straight.
+      // A total change of a tenth of σ is large enough to resolve, and small enough to be nearly linear.
       if (const double change = (whole - bare).norm(); change > 0.1) {
         step *= 0.1 / change;
         if (!at(sign * step, whole).ok()) continue;

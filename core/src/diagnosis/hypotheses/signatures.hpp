@@ -7,7 +7,7 @@
 
 namespace tunica::diagnosis {
 
-/// What an amplitude does near the null, one entry a side it can go to.
+/// The effect of an amplitude near the null, one entry per admissible side.
 struct Slope {
   Eigen::VectorXd signature;
   MechanismFactory::Side side;

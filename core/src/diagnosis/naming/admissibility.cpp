@@ -28,7 +28,7 @@ Admissibility admissibility_at(const assembly::Assembly& assembly, std::span<con
     const auto verdict = stability::judge_admissibility(
         assembly.models().model(m), assembly.models().parameters(m, free), comparison::domain_of(assembly, m));
     const auto transverse = verdict.transversely_stable();
-    // A material that changes its volume is judged over states that nobody measured, so that it is told and not
+    // A material that changes its volume is judged over unmeasured states. The result is therefore reported, but not
     // weighed.
     const bool elliptic = verdict.changes_volume() || !verdict.ellipticity.first_lost;
     if (transverse == false)
@@ -141,8 +141,8 @@ Explanation stabilised(const Inquiry& inquiry, const Analysis& analysis, const A
                              lost + ", and no mechanism of the catalogue gives an admissible fit that is as good"});
     return found;
   }
-  // The least extension: of those that restore it the ones with the fewest parameters, for the misfit is the lost
-  // stability, and what a further parameter does for the fit says nothing about that.
+  // The smallest extension: the one with the fewest parameters among those that restore stability. The fault is the
+  // lost stability, and a further parameter that only improves the fit is no evidence about it.
   const auto size = [&](const Trial& trial) { return candidates[trial.candidate].mechanism->parameters.size(); };
   std::size_t fewest = size(trials.front());
   for (const Trial& trial : trials) fewest = std::min(fewest, size(trial));

@@ -57,7 +57,7 @@ Amplitude estimate(const Refit& refit, std::size_t variable, const std::string& 
 /// its null.
 Amplitude bounded(Amplitude amplitude, const MechanismFactory& mechanism, const assembly::FreeParameter& parameter,
                   const AmplitudeRange& range) {
-  // An amplitude at its null is no bound to worry about; beyond what is plausible by more than its uncertainty is.
+  // A bound at the null is harmless. An amplitude beyond its plausible range by more than its uncertainty is not.
   amplitude.at_bound = amplitude.at_bound && amplitude.value != mechanism.null;
   const bool known = !std::isnan(amplitude.low);
   amplitude.plausible = (known ? amplitude.high : amplitude.value) >= range.plausible_min &&

@@ -8,18 +8,17 @@
 
 namespace tunica::diagnosis {
 
-/// Addition `which` of a refit in words and numbers: amplitude with its interval from the refit's Jacobian, what it has
-/// to do with the parameters, the sentence for a person. The probabilities are left to whoever compares.
+/// Addition `which` of a refit in words and numbers: the amplitude with its interval from the refit's Jacobian, its
+/// coupling to the parameters, and the sentence for people. The caller adds the probabilities.
 Cause cause_of(const Inquiry& inquiry, const Analysis& analysis, const Refit& refit, std::size_t which,
                const Direction& direction);
 
 /// The sentence, from the numbers of the cause.
 std::string explanation_of(const Cause& cause, const MechanismFactory& mechanism);
 
-/// Where an effect that several tests should show is carried by one of them: what the rest shows instead. Leaving one
-/// test out, amplitude δ becomes δ₋ with standard errors s and s₋; δ₋ − δ has variance s₋² − s² if the effect is what
-/// it is said to be. More than 3.5 of its standard deviations, with δ₋ no longer significant where it should be, is no
-/// chance.
+/// If only one of several tests shows an effect that all should show: the result from the other tests. Without one
+/// test, amplitude δ becomes δ₋, with standard errors s and s₋. If the effect is as claimed, δ₋ − δ has variance s₋² −
+/// s². A difference above 3.5 standard deviations is not chance if δ₋ should be significant and is not.
 std::optional<std::string> carried_by_one_test(const Analysis& analysis, const Direction& direction);
 
 }  // namespace tunica::diagnosis

@@ -15,7 +15,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// Of what a group takes, below which a member that is alone takes next to nothing.
+/// The share of a group's gain below which the gain of a single member is negligible.
 constexpr double small_share = 0.15;
 
 std::vector<std::string> ids_of(const std::vector<Addition>& additions) {
@@ -162,10 +162,10 @@ WeighedClaim claim_several(const Inquiry& inquiry, const Analysis& analysis, con
   std::set<std::multiset<std::string>> seen;
   for (const Rival& rival : rivals) {
     const std::vector<std::string> ids = ids_of(rival.refit().additions);
-    // In other places the same mechanisms are no other explanation.
+    // The same mechanisms in other places are not another explanation.
     if (!seen.insert({ids.begin(), ids.end()}).second) continue;
     if (!rival.in_set) {
-      // One of the causes by itself is not wrong, it is not all.
+      // A single one of the causes is not wrong, but incomplete.
       if (rival.group || !contains_id(own, ids.front()))
         claim.best_rejected = better_rejected(claim.best_rejected, rival.refit());
       continue;

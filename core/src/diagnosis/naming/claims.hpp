@@ -9,7 +9,7 @@
 
 namespace tunica::diagnosis {
 
-/// What is said to explain the misfit.
+/// The claimed explanation of the misfit.
 struct Claim {
   std::vector<Cause> causes;  ///< of the best explanation first, then rivals
   std::size_t named = 0;      ///< how many of the causes make up the best explanation
@@ -27,9 +27,9 @@ struct WeighedClaim {
   std::vector<std::size_t> directions;  ///< of the causes that make up the best explanation
   std::size_t explanations = 0;         ///< in the ambiguity set, look-alikes counted once
   bool alone = true;                    ///< without a rival in the set
-  /// The member of a group that by itself takes next to nothing of what the group takes. Two causes each show in the
-  /// data; what shows only beside another may make up for its shape, that of an effect which no mechanism lists. Else
-  /// empty.
+  /// The member of a group whose gain alone is negligible against the gain of the group; else empty. Of two real
+  /// causes, each shows in the data. A member that shows only beside another may correct the other's shape for an
+  /// unlisted effect.
   std::string correction;
 };
 

@@ -43,7 +43,7 @@ Explanation alarming(const Inquiry& inquiry, const Analysis& analysis, const std
   return found;
 }
 
-/// What is no material is wrong however well it fits.
+/// An unstable material is wrong, however well it fits.
 Explanation inadmissible(const Inquiry& inquiry, const Analysis& analysis, const Admissibility& admissibility,
                          const std::vector<GrossRow>& gross) {
   Explanation restored = stabilised(inquiry, analysis, admissibility);
@@ -51,7 +51,7 @@ Explanation inadmissible(const Inquiry& inquiry, const Analysis& analysis, const
   if (!analysis.alarm.raised) return restored;
   Explanation found = alarming(inquiry, analysis, gross);
   found.reasons.insert(found.reasons.begin(), restored.reasons.begin(), restored.reasons.end());
-  // Whatever explains the curves: a cause under which the material stays unstable is not the whole of it.
+  // A cause may explain the curves, but is incomplete if the material stays unstable under it.
   if (gross.empty() && found.verdict == Verdict::named) found.verdict = Verdict::unknown;
   return found;
 }

@@ -9,7 +9,7 @@
 
 namespace tunica::diagnosis {
 
-/// What is wrong, and what explains it.
+/// The fault and its explanation.
 struct Explanation {
   Verdict verdict = Verdict::nothing_detected;
   std::vector<Reason> reasons;  ///< of the verdict
@@ -24,7 +24,7 @@ struct Explanation {
   std::vector<Cause> left_out;  ///< gross rows that the extension takes out beside its causes
   std::vector<Misfit> misfit;
   Admissibility admissibility;
-  FileFindings file;  ///< what the file may say that is not so
+  FileFindings file;  ///< possible mistakes in the file
   /// Where a mistake is near or ahead: the experiment with the likeliest one mended, its data in memory.
   std::shared_ptr<const experiment::Experiment> mended = {};
 };
@@ -32,7 +32,7 @@ struct Explanation {
 /// What the probability of one of its causes is worth.
 Standing standing_of(const Cause& cause, const Explanation& explanation);
 
-/// What the alarm is about, and what explains it. `gross`: rows that are the only thing wrong.
+/// The subject of the alarm and its explanation. `gross`: gross rows, if nothing else is wrong.
 Explanation explain(const Inquiry& inquiry, const Analysis& analysis, const std::vector<GrossRow>& gross);
 
 }  // namespace tunica::diagnosis

@@ -53,8 +53,8 @@ std::vector<Group> GroupFits::refitted(std::vector<Group> groups, double from, d
   return groups;
 }
 
-/// Takes out the groups of which a member is not needed. The likeliest first: once some have stood the test, groups so
-/// much less likely than they are that nothing asks for them go too.
+/// Removes the groups with an unneeded member, the likeliest first. After some groups have passed, groups that are far
+/// less likely are removed too.
 void GroupFits::weigh_members(std::vector<Group>& groups, const std::function<void()>& done) const {
   std::vector<Group> kept;
   for (std::size_t first = 0; first < groups.size(); first += groups_searched_again) {

@@ -50,7 +50,7 @@ class GroupSearch {
     return fits_.refitted(std::move(groups), 0.55, 0.63);
   }
 
-  /// Begun from several pairs; then each member of the best triple has to stand against what would take its place.
+  /// It begins from several pairs; then each member of the best triple competes with possible replacements.
   std::vector<Group> triples(std::span<const Group> pairs) {
     std::vector<Group> groups;
     std::set<std::multiset<std::size_t>> seen;

@@ -30,8 +30,8 @@ std::vector<Group> fit_pairs(const Inquiry& inquiry, const Analysis& analysis, c
 /// first, empty where no third is needed.
 std::vector<Group> fit_triples(const Inquiry& inquiry, const Analysis& analysis, std::span<const Group> pairs);
 
-/// ln of the odds that two mechanisms are at work and not one, before the data, for each pair against each single one
-/// among C: two are in one data set of ten, and there are (C − 1)/2 times as many pairs.
+/// ln of the prior odds of each pair against each single mechanism among C candidates. One data set in ten has two
+/// mechanisms, and there are (C − 1)/2 times as many pairs.
 double log_odds_of_pair(std::size_t candidates);
 
 }  // namespace tunica::diagnosis

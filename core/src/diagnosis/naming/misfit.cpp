@@ -102,7 +102,7 @@ std::vector<Misfit> misfits(const Inquiry& inquiry, const Analysis& analysis, co
     found.push_back(described(evidence, curve, -fit.residuals.segment(curve.first, curve.count), p[order[place]]));
   }
   if (!found.empty() || !analysis.alarm.raised || !claim.best) return found;
-  // No curve is wrong enough by itself: the one of which the cause explains most, and where it does.
+  // No single curve is significant: take the curve of which the cause explains most, and the region.
   const Eigen::VectorXd change = claim.best->fit.residuals - fit.residuals;
   const auto explained = [&](std::size_t c) {
     const Curve& curve = evidence.curves[c];

@@ -7,9 +7,9 @@
 
 namespace tunica::diagnosis {
 
-/// The curves whose smooth misfit is significant at the level alpha, shared out among the curves (Holm), the worst
-/// first; where on them, and on which side. Where none is by itself, and the alarm has a cause, the curve of which that
-/// explains most. Descriptive: the alarm is Detector's.
+/// The curves whose smooth misfit is significant at the level alpha after Holm's correction, the worst first, with
+/// region and sign. If no curve is significant and the alarm has a cause, the curve of which the cause explains most.
+/// It only describes; Detector raises the alarm.
 std::vector<Misfit> misfits(const Inquiry& inquiry, const Analysis& analysis, const Claim& claim);
 
 }  // namespace tunica::diagnosis

@@ -98,7 +98,7 @@ class Contest {
   [[nodiscard]] bool one_is_worth_more(const Group& group) const {
     const Fit& fit = analysis_.evidence.fit;
     const Single& single = singles_.front();
-    // What takes an amplitude that nobody would believe is worth less than several that are plausible.
+    // An explanation with an implausible amplitude ranks below several with plausible ones.
     if (!believable(*single.best, {single.direction}) && believable(*group.refit, group.directions)) return false;
     const double rows = static_cast<double>(fit.residuals.size());
     const double odds = static_cast<double>(group.additions.size() - 1) * log_odds_of_pair(singles_.size());
@@ -121,7 +121,7 @@ class Contest {
   const std::vector<RankedMechanism>& ranking_;
 };
 
-/// What makes a single cause, or causes, that stand alone a matter of the data; none: nothing does.
+/// The evidence in the data for a single cause, or for causes without a rival; none without evidence.
 std::optional<Reason> suspicion(const Inquiry& inquiry, const Analysis& analysis, const WeighedClaim& weighed) {
   const Claim& claim = weighed.claim;
   const Cause& first = claim.causes.front();

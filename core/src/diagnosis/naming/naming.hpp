@@ -5,16 +5,16 @@
 
 namespace tunica::diagnosis {
 
-/// What explains the residuals of the base fit: verdict, claim, ranking.
+/// The explanation of the base fit's residuals: verdict, claim, ranking.
 ///
 /// The ambiguity set holds the likeliest explanations, with 92.5 % of the probability together, look-alikes counted
 /// once (credible.hpp). Pairs are tried beside single mechanisms (groups.hpp), and a third where the best pair leaves
 /// something; where no explanation leaves clean residuals, or too many do, the cause is unknown.
 Explanation named_causes(const Inquiry& inquiry, const Analysis& analysis);
 
-/// The same explanation where the extension leaves what is not noise: unknown, with the share that the causes take, and
-/// how much larger than it is stated the noise would have to be for the rest to be clean. Where the alarm stands at
-/// that noise too, the causes may be all there is.
+/// The same explanation if the extension leaves more than noise. The verdict is then unknown, with the share that the
+/// causes explain and the factor on the stated noise at which the rest would be clean. If the alarm also holds at that
+/// noise, the causes may be complete.
 Explanation unclean(const Inquiry& inquiry, const Analysis& analysis, Explanation explanation);
 
 }  // namespace tunica::diagnosis

@@ -27,9 +27,9 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
                               std::span<const double> amplitudes, const Refit* from = nullptr,
                               Nuisance nuisance = Nuisance::fitted);
 
-/// What a missing effect has driven to a bound of the base fit may stay there, though with the effect it is there no
-/// longer: at θ = 0 two families of fibres are one, and no derivative leads away. Where the base fit has such a
-/// parameter, the refit is searched for again from the best of many random places; the better one. It ends below
+/// A missing effect may drive a parameter of the base fit to a bound, and a refit with the effect may not leave it. For
+/// example, at θ = 0 two families of fibres coincide, and the derivative vanishes. If the base fit has such a
+/// parameter, the refit starts again from the best of many random points, and the better result counts. It ends below
 /// `enough`.
 Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit refit, double enough = 0);
 

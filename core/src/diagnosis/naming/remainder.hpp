@@ -11,8 +11,8 @@ constexpr double second_alpha = 0.01;
 
 inline bool is_clean(double p_after) { return p_after > second_alpha; }
 
-/// What a refit leaves, tested for all that was not added: smooth shapes and the other mechanisms. Of `outliers` that
-/// sit in a row, the other rows are tested still.
+/// Tests the residuals of a refit for everything that was not added: smooth shapes and the other mechanisms. If
+/// `outliers` is added at one row, the other rows are still tested.
 Detector remainder_detector(const Analysis& analysis, const Refit& refit);
 
 /// P-value of what a refit leaves.

@@ -14,8 +14,7 @@ using experiment::Experiment;
 
 namespace {
 
-/// The one that the diagnosis was asked to use; else Levenberg–Marquardt, which from the fitted values is there at
-/// once.
+/// The requested optimizer; else Levenberg–Marquardt, which converges at once from the fitted values.
 std::string optimizer_of(Experiment& experiment, const std::string& asked, const plugins::Catalogue& catalogue) {
   if (!asked.empty()) return asked;
   const auto* const refiner = catalogue.refiner();

@@ -11,7 +11,7 @@
 namespace tunica::diagnosis {
 
 /// The experiment with its parameters at these values and one run of whitened least squares, as extended.json has it.
-/// `optimizer` is the one asked for; without one Levenberg–Marquardt, which from fitted values is there at once.
+/// `optimizer` is the requested one; without one it is Levenberg–Marquardt, which converges at once from fitted values.
 experiment::Experiment fitted_experiment(experiment::Experiment experiment, experiment::RunEntry run,
                                          const assembly::Assembly& assembly, std::span<const double> free,
                                          const std::string& optimizer, const plugins::Catalogue& catalogue);

@@ -30,8 +30,8 @@ std::string result_document(const Diagnosis& diagnosis, const experiment::Experi
 /// The ambiguity set in words: "a (or b, c, much the same here)", "d"; of what acts together "a with b", "a with c".
 std::vector<std::string> explanations(const Claim& claim);
 
-/// What a person reads on the terminal: what is wrong and where, the cause and how sure, what else it could be, what
-/// was gained, what to measure next. `below_verdict`: lines that stand second.
+/// The text on the terminal: what is wrong and where, the cause and its probability, its rivals, the gain, and the next
+/// measurement. `below_verdict`: lines directly below the verdict.
 text::StyledText summary(const Diagnosis& diagnosis, const text::StyledText& below_verdict = {});
 
 /// The experiment with the causes added, its parameters at their fitted values, one run of whitened least squares: the
@@ -41,8 +41,8 @@ std::string extended_experiment(const Diagnosis& diagnosis, const plugins::Catal
 struct NamedText {
   std::string name, text;
 };
-/// Where the file may say what is not so: mended.json, the experiment with the likeliest mistake mended, and the tables
-/// of the tests that it was in, in base units. Their place is `directory`. Else empty.
+/// If the file may contain a mistake: mended.json, which is the experiment with the likeliest mistake corrected, and
+/// the tables of the affected tests in base units, in `directory`. Else empty.
 std::vector<NamedText> mended_files(const Diagnosis& diagnosis, const std::filesystem::path& directory,
                                     const plugins::Catalogue& catalogue);
 

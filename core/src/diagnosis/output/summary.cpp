@@ -100,11 +100,11 @@ std::string misfit_line(const std::vector<Misfit>& misfits) {
   return fmt::format("{}", fmt::join(where, "; "));
 }
 
-/// "probability 0.93" where it can be read so; else what is the case.
+/// "probability 0.93" if it is meaningful; else a statement of the situation.
 std::string standing_words(const Cause& cause, const Explanation& explanation) {
   switch (standing_of(cause, explanation)) {
     case Standing::probable:
-      // A probability compares mechanisms, and says nothing where the file may be the cause.
+      // A probability compares mechanisms, and means nothing if the file may be the cause.
       if (explanation.file.standing == FileStanding::near) return "likeliest of the catalogue, if the file is right";
       return fmt::format("probability {:.2f}", cause.probability);
     case Standing::at_bound:
@@ -198,8 +198,8 @@ std::string error_words(const HeldOut& block) {
   return fmt::format("{} → {} σ", size_of(block.before), size_of(block.after));
 }
 
-/// What the extension makes of blocks that it has not seen: the one that it does most for among those that it
-/// predicts, and the one that it is furthest from.
+/// How the extension predicts unseen blocks: the predicted block with the largest improvement, and the block with the
+/// largest error.
 std::string held_out_words(const Gain& gain) {
   const HeldOut *best = nullptr, *worst = nullptr;
   for (const HeldOut& block : gain.held_out) {
@@ -243,8 +243,8 @@ std::string undetected(const Detectable& one) {
   return fmt::format("{} within {:.3g} ± {}", one.id, one.null, amount(one.detectable, one.unit));
 }
 
-/// The mechanisms that could still hide: least detectable amplitudes that are large, or no trace at all. What cannot
-/// apply to this base and these tests is not among them.
+/// The mechanisms that could still be hidden: those with a large least detectable amplitude, or without a trace.
+/// Inapplicable mechanisms are not listed.
 std::string could_hide(const std::vector<Detectable>& detectable) {
   std::vector<std::string> large, invisible;
   for (const Detectable& one : detectable) {
@@ -261,7 +261,7 @@ std::string could_hide(const std::vector<Detectable>& detectable) {
   return text;
 }
 
-/// What the file may say that is not so, as a question, with what to try; mirror images of it beside it.
+/// A possible mistake in the file, as a question with a remedy, together with its mirror images.
 std::string file_line(const FileFindings& file) {
   if (file.standing != FileStanding::near && file.standing != FileStanding::ahead) return "";
   const FileCause& first = file.causes.front();
@@ -341,7 +341,7 @@ text::StyledText summary(const Diagnosis& d, const text::StyledText& below_verdi
   for (std::size_t k = 0; k < std::min(claim.named, claim.causes.size()); ++k)
     line("Cause:    ", cause_line(claim.causes[k], explanation));
   for (const Cause& row : explanation.left_out) line("Cause:    ", cause_line(row, explanation));
-  // The budget has what else there is beside what leads.
+  // The budget lists the effects besides the leading cause.
   const bool leads = explanation.verdict == Verdict::leading;
   if (wrong && !leads && !claim.causes.empty()) line("Or else:  ", rivals_line(explanation));
   if (wrong) line("Left out: ", not_tried(d.prospects.detectable));

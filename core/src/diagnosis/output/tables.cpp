@@ -13,8 +13,8 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// What a cause changes in every row, in σ. One that is an explanation by itself: how its refit differs from the base
-/// fit. A member of several: what its amplitude does in their refit, as far as the parameters could not do it.
+/// The effect of a cause in every row, in σ. For a single cause, it is the difference between its refit and the base
+/// fit. For one of several, it is the effect of its amplitude in their refit that the parameters could not absorb.
 Eigen::VectorXd signature_of(const Diagnosis& d, std::size_t which) {
   const Fit& base = d.analysis.evidence.fit;
   const Claim& claim = d.explanation.claim;
@@ -95,7 +95,7 @@ std::string residual_table(const Evidence& evidence, const assembly::Assembly* e
     for (std::size_t k = 0; k < curve.rows.size(); ++k) {
       const std::size_t row = curve.rows[k];
       const Eigen::Index i = curve.first + static_cast<Eigen::Index>(k);
-      // A gross row is all but silent in the fit, and here it is as far off as it is.
+      // A gross row hardly counts in the fit, but here its full deviation appears.
       const auto& gross = view.noise->gross;
       const bool silent = std::find(gross.begin(), gross.end(), row) != gross.end();
       const auto residual = [&](const std::vector<double>& values, const Fit& of) {

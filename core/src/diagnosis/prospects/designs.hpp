@@ -24,8 +24,8 @@ struct Design {
 std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, const assembly::Assembly& scale,
                             std::span<const double> free);
 
-/// What the material of a fit shows in a design; false where it cannot be simulated. The errors of the rig that the fit
-/// may hold belong to the tests they were found in.
+/// The prediction of a design with the material of a fit; false if it cannot be simulated. Errors of the rig in the fit
+/// belong to their own tests, and are left out.
 bool predict(const Design& design, const assembly::Assembly& rival, std::span<const double> free,
              std::vector<double>& values);
 

@@ -28,8 +28,8 @@ std::string amplitude_unit(const assembly::Assembly& base, const MechanismFactor
   return mechanism.parameters.front().unit;
 }
 
-/// Where the mechanism shows best at the null, by what its largest plausible amplitude would do; of its nuisance
-/// settings, whose scales may differ by orders of magnitude, the one in the middle. Null where it shows nowhere.
+/// The place where the mechanism's largest plausible amplitude has the largest effect. Of its nuisance settings, whose
+/// scales may differ by orders of magnitude, it takes the middle one. Null if the mechanism has no effect anywhere.
 const Direction* typical(const Hypotheses& hypotheses, std::size_t candidate) {
   struct Best {
     const Direction* direction;

@@ -7,8 +7,8 @@
 
 namespace tunica::diagnosis {
 
-/// What a run of extended.json takes otherwise than the diagnosis: relative noise, which is of the measured values
-/// there, and gross rows beyond the first of a test.
+/// The differences between a run of extended.json and the diagnosis: relative noise, which a run takes of the measured
+/// values, and gross rows beyond the first of a test.
 std::vector<Warning> extended_run_warnings(const Inquiry& inquiry, const Evidence& evidence,
                                            const Explanation& explanation);
 

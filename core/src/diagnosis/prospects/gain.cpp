@@ -34,7 +34,7 @@ std::vector<Block> blocks_of(const Evidence& evidence) {
           block.counted[static_cast<std::size_t>(curve.first + i)] = false;
           ++out;
         }
-    // What is left must be able to determine the parameters.
+    // The remaining rows must determine the parameters.
     if (out > 0 && rows - out > 2 * evidence.base->layout().parameters.size()) blocks.push_back(std::move(block));
   };
   std::vector<std::string> tests;
@@ -96,8 +96,8 @@ double root_mean_square(const Eigen::VectorXd& r, const std::vector<Eigen::Index
 ///
 ///   |r|² of all − |r|² of the others, each at its own fit  ~  χ²(n)
 ///
-/// which in a linear model is rᵀ(I + J C Jᵀ)⁻¹ r of the predicted block with C = (JᵀJ)⁻¹ of the others, and stands
-/// where a prediction by exponentials has no linear error.
+/// In a linear model this is rᵀ(I + J C Jᵀ)⁻¹ r of the predicted block, with C = (JᵀJ)⁻¹ of the others. It remains
+/// valid for nonlinear models, such as those with exponentials.
 double predictive_p(double all, double others, std::size_t n) {
   return numerics::chi_squared_above(std::max(all - others, 0.0), static_cast<double>(n));
 }

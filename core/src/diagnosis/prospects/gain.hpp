@@ -5,10 +5,10 @@
 
 namespace tunica::diagnosis {
 
-/// What the extension gains: |r|² in sample, beside what the best of all mechanisms gains under nothing and what the
-/// best rejected one gains; and on blocks that take no part in the fit that predicts them: each test left out, each
-/// type of test, and the rows beyond 70 % of the range of the abscissa predicted from those below. A test that alone
-/// shows the effect cannot be predicted with it from the others, and is left out of the list.
+/// The gain of the extension. In sample it is the decrease of |r|², beside the best gain under the null and the gain of
+/// the best rejected mechanism. Out of sample it predicts blocks that are left out of the fit: each test, each type of
+/// test, and the rows beyond 70 % of the range of the abscissa. A test that alone shows the effect is not listed,
+/// because the others cannot predict it.
 ///
 /// The p-value of a block is Chow's: |r|² of all rows at the fit of all, less |r|² of the others at theirs, is χ² of as
 /// many degrees of freedom as the block has rows.

@@ -8,7 +8,7 @@
 
 namespace tunica::diagnosis {
 
-/// What the explanation is worth, what could still hide, and what to do next.
+/// The value of the explanation, the effects that could still be hidden, and the next step.
 struct Prospects {
   std::optional<Gain> gain;  ///< of the extension, where there is one
   std::vector<Detectable> detectable;
