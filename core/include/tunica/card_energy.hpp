@@ -12,20 +12,19 @@
 #include "tunica/options.hpp"
 
 /// \file
-/// Energies that material cards of finite-element programs can have. A model that is one of them says so in its
-/// factory, and `tunica export` writes its card. Moduli in kPa, angles in degrees. docs/export.md has the cards.
+/// Energies that material cards of finite-element programs can have. A model with one of these energies declares it in
+/// its factory, and `tunica export` writes its card. Moduli in kPa, angles in degrees. docs/export.md has the cards.
 ///
 /// The axes are those of a wall: circumferential, axial and radial. C is the right Cauchy–Green tensor, I1 = tr C and
 /// I2 = (I1² − tr C²)/2; λ are the principal stretches and J their product. Every energy vanishes at rest. Programs
-/// with isochoric invariants take the same formula in them, and add an energy of the volume. Names of models are no
-/// part of it: a program takes a form, whoever has it, or refuses it with the reason.
+/// with isochoric invariants take the same formula in these invariants, and add an energy of the volume. Names of
+/// models do not matter: a program accepts a form from any model, or refuses it with a reason.
 
 namespace tunica {
 
 /// Σ C_mn (I1 − 3)^m (I2 − 3)^n, of Rivlin. A neo-Hookean solid is the term {1, 0, μ/2}, Mooney–Rivlin adds {0, 1, …}.
 ///
-/// A term that is listed is part of the form, even where its coefficient is 0: programs name their forms by their
-/// terms.
+/// A listed term is part of the form, even if its coefficient is 0: programs name their forms by their terms.
 struct PolynomialEnergy {
   /// One product of powers; each pair {m, n} occurs once, and m + n ≥ 1.
   struct Term {
@@ -95,13 +94,13 @@ struct FibreEnergy {
 /// An energy of a card. `tunica plugin check` compares it with the model's own.
 using CardEnergy = std::variant<PolynomialEnergy, LimitedChainEnergy, StretchEnergy, FoamEnergy, FibreEnergy>;
 
-/// The energy of a model with these options at these parameters, which are in the order and base units of its
-/// description. Throws InputError where no program has the energy with these options.
+/// The energy of a model with these options at these parameters, in the order and base units of its description. Throws
+/// InputError if no program has the energy with these options.
 using CardFormula = std::function<CardEnergy(const Options& options, std::span<const double> parameters)>;
 
 /// The energy of the volume ratio J that a mechanism adds to a card.
 struct CardVolume {
-  /// "quadratic" K/2 (J − 1)², "logarithmic" K/2 (ln J)², "simo" K/4 (J² − 1 − 2 ln J); programs have one of them each.
+  /// "quadratic" K/2 (J − 1)², "logarithmic" K/2 (ln J)², "simo" K/4 (J² − 1 − 2 ln J); each program has one of them.
   std::string law;
   /// K, kPa; 0 = incompressible.
   double bulk_modulus;

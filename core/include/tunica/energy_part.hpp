@@ -51,13 +51,13 @@ struct ResponseBatch {
 /// Ownership: the model owns its parts; what describe() returns lives as long as the part.
 class EnergyPart {
  public:
-  /// What the part stands for. Mechanisms of the matrix or of the fibres choose parts by it.
+  /// The constituent that the part describes. Mechanisms of the matrix or of the fibres select parts by it.
   enum class Role {
     matrix,  ///< ground substance, elastin, rubber
     fibre    ///< a family of fibres, or a mirrored pair of them
   };
-  /// Where the part contributes. At the edge the limit from the active side counts, so that rounding at rest decides
-  /// nothing.
+  /// Where the part contributes. At the edge, the limit from the active side counts, so rounding at rest does not
+  /// matter.
   enum class Active {
     always,             ///< everywhere
     argument_positive,  ///< while x > 0
@@ -68,7 +68,7 @@ class EnergyPart {
   struct Description {
     /// Name in messages and reports, for example "matrix" or "fibres".
     std::string name;
-    /// The mechanisms it is meant for.
+    /// The constituent, which selects the mechanisms that apply.
     Role role = Role::matrix;
     /// Where it contributes. The model applies this; respond() does not.
     Active active = Active::always;

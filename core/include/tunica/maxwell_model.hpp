@@ -6,13 +6,13 @@
 
 namespace tunica {
 
-/// A model that says that its memory is one of Maxwell branches and nothing else; a class that derives from Model may
-/// derive from this, too. In principal axes, with g_a = ½ S_aa of elastic() and c_a the squared stretches,
+/// Declares that a model's memory consists only of Maxwell branches; a class derived from Model may also derive from
+/// this. In principal axes, with g_a = ½ S_aa of elastic() and c_a the squared stretches,
 ///
 ///   g'_a = g_a − ⅓ (Σ_b g_b c_b)/c_a,   h₊ = e^{−Δt/τ} h + g φ Δg',  φ = (1 − e^{−Δt/τ})/(Δt/τ),
 ///
-/// h = 0 at rest, and the response is g_a plus the h_a of all branches: what remember() does row by row. A test that
-/// knows it may follow all rows of a path at once. It gives the same numbers to rounding.
+/// h = 0 at rest, and the response is g_a plus the h_a of all branches. remember() computes this row by row. With this
+/// declaration, a test may compute all rows of a path at once, with the same numbers to rounding.
 ///
 /// Threads: as Model. Ownership: none.
 class MaxwellModel {
@@ -29,7 +29,7 @@ class MaxwellModel {
     /// Place of the relaxation time, s.
     std::size_t tau;
   };
-  /// Adds its branches; false where something else remembers as well.
+  /// Adds its branches; false if the model has any other memory.
   virtual bool add_branches(std::vector<Branch>& found) const = 0;
 };
 

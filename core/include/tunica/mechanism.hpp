@@ -27,12 +27,12 @@ enum class Stage {
 
 /// A mechanism: something that a base simulation leaves out, with an amplitude whose null value switches it off.
 ///
-/// It is no fourth interface. A mechanism is this declaration and one function, which wraps a Model or a Test. The
+/// It is not a fourth interface: a mechanism is this declaration and one function, which wraps a Model or a Test. The
 /// wrapper appends the mechanism's parameters to those of the wrapped object, the amplitude first.
 ///
-/// At the null: the wrapper delegates to the bare object, bit for bit. Beside the null it agrees with it to 1e-12, and
-/// derivatives by the amplitude are those of the formula. Diagnosis depends on all three, and `tunica plugin check`
-/// holds a plugin to them.
+/// At the null, the wrapper delegates to the bare object, bit for bit. Near the null, it agrees with the bare object to
+/// 1e-12, and derivatives by the amplitude are those of the formula. Diagnosis depends on all three properties, and
+/// `tunica plugin check` tests them.
 ///
 /// Bases: DecoratedModel for changed or added energy parts, HistoryModel for memory, DecoratedTest for tests.
 struct MechanismFactory {
@@ -43,11 +43,12 @@ struct MechanismFactory {
     even       ///< on either side, with equal effect: the first derivative vanishes at the null
   };
 
-  /// What is not as the base simulation has it. Diagnosis shows causes in the material and causes in the rig apart.
+  /// The part of reality that differs from the base simulation. Diagnosis lists causes in the material and in the rig
+  /// separately.
   enum class Origin {
     by_stage,  ///< the material for stages before `test`, else the rig
     material,  ///< the specimen: its substance, its layers, its residual stress, what surrounds it
-    rig        ///< the experiment: what was prescribed, read, measured or cut wrong
+    rig        ///< the experiment: errors in prescribing, reading, measuring or cutting
   };
 
   /// Name in experiment files and reports, for example "fibre_dispersion".
@@ -60,9 +61,9 @@ struct MechanismFactory {
   std::vector<std::string> applies_to = {};
   /// Its parameters: the amplitude first, nuisance parameters after it.
   std::vector<Parameter> parameters = {};
-  /// Set where the parameters depend on the options: those of an object with these options. `parameters` then holds
-  /// those of the default options. Diagnosis does not look for such a mechanism, which may stand for anything;
-  /// discovery does.
+  /// Set if the parameters depend on the options: the parameters of an object with these options. `parameters` then
+  /// holds those of the default options. Such a mechanism is too general for diagnosis, which ignores it; discovery
+  /// considers it.
   std::function<std::vector<Parameter>(const Options&)> parameters_of = {};
   /// The null of the amplitude.
   double null = 0;
@@ -70,72 +71,73 @@ struct MechanismFactory {
   Side side = Side::positive;
   double plausible_min = 0,  ///< smallest amplitude that is physically plausible
       plausible_max = 0;     ///< largest plausible amplitude
-  /// Set for an amplitude in units of stress or of a channel, whose size depends on the specimen. The largest plausible
-  /// amplitude is then the one whose effect, with all else held, is this multiple of the range of the measured values;
-  /// five times as much is the bound. Diagnosis uses both in place of the declared ones. Without a unit, the amplitude
+  /// Set for an amplitude in units of stress or of a channel, whose size depends on the specimen. The effect of the
+  /// largest plausible amplitude, with all else held, is then this multiple of the range of the measured values. The
+  /// bound is five times as large. Diagnosis uses both in place of the declared ones. Without a unit, the amplitude
   /// keeps at least its declared range. 0: the declared range holds for all data.
   double plausible_effect = 0;
   /// Ids of mechanisms with a similar effect; an explanation names them.
   std::vector<std::string> look_alikes = {};
-  /// The experiment that tells it from its look-alikes.
+  /// The experiment that distinguishes it from its look-alikes.
   std::string isolated_by = {};
   /// Source of formula and range.
   std::string reference = {};
   /// The group that it belongs to in results.
   Origin origin = Origin::by_stage;
-  /// Whether it acts along directions of the material, as fibres and muscle do. Diagnosis leaves it out where the base
-  /// model is isotropic, unless it is asked for by name.
+  /// Whether it acts along directions of the material, as fibres and muscle do. If the base model is isotropic,
+  /// diagnosis leaves it out unless the request names it.
   bool directional = false;
-  /// Whether several of it side by side say more than one, as several relaxation times do. Diagnosis then tries a
-  /// second one where the first leaves more than noise.
+  /// Whether several instances can describe more than one, as with several relaxation times. Diagnosis then tries a
+  /// second one if the first leaves more than noise.
   bool several = false;
-  /// Whether a row depends on the rows before it, so that their order matters. Every mechanism of the stage `history`
-  /// has memory; those of later stages say so here, and then wrap the others of their stage.
+  /// Whether a row depends on earlier rows, so their order matters. Every mechanism of the stage `history` has memory.
+  /// Mechanisms of later stages declare it here, and then wrap the others of their stage.
   bool memory = false;
   /// Options of its object in the experiment file.
   std::vector<Option> options = {};
-  /// Options of the test that it needs, as sizes above 0 in the file, for example a length. Diagnosis does not look for
-  /// it where one is 0, and says so.
+  /// Options of the test that it needs as sizes above 0, for example a length. If one is 0, diagnosis does not consider
+  /// the mechanism, and says so.
   std::vector<std::string> sizes = {};
 
-  /// Something wrong in the record of tests, by an amplitude that was fitted.
+  /// An error in the record of tests, with its fitted amplitude.
   struct Misrecorded {
     std::string tests;      ///< quoted: "'a' and 'b'"
     std::string direction;  ///< "axial " of a sheet whose directions err by themselves; "" otherwise
     double amplitude;       ///< in the unit of its parameter
   };
-  /// Set where a calibration of the rig settles the matter: what an amplitude means, in words without a full stop.
-  /// Diagnosis then also asks whether all tests were recorded so, as a question about the file.
+  /// Set if a calibration of the rig can settle the question: the meaning of an amplitude in words, without a full
+  /// stop. Diagnosis then also asks whether all tests were recorded so, as a question about the file.
   std::function<std::string(const Misrecorded&)> calibration = {};
-  /// Whether it is such a question only, because it can do what a stiffer material does. Otherwise it is a cause in the
-  /// rig as well, in single tests.
+  /// Whether it is only such a question, because its effect can equal that of a stiffer material. Otherwise it is also
+  /// a cause in the rig, in single tests.
   bool question_only = false;
-  /// Whether its option "channel" has to name one, so that each channel has an amplitude of its own.
+  /// Whether its option "channel" must name a channel. Each channel then has its own amplitude.
   bool by_channel = false;
 
-  /// In place of wrap_test: the name of a parameter that tests have themselves, a native imperfection. It rests at its
-  /// null unless this mechanism frees it. An option that the test declares too overrides the test's.
+  /// In place of wrap_test: the name of a parameter of the tests themselves, a native imperfection. It rests at its
+  /// null unless this mechanism frees it. An option of the mechanism overrides an option of the test with the same
+  /// name.
   std::string native = {};
   /// Whether diagnosis also tries one common amplitude in all tests that it applies to.
   bool shared = false;
   /// Values of nuisance parameters and of number options, by name.
   using Setting = std::vector<std::pair<std::string, double>>;
-  /// Where diagnosis looks for the effect: one search for each setting. Empty: every nuisance parameter at its initial
-  /// value; those in s from the shortest time step to the duration of the data.
+  /// The settings at which diagnosis looks for the effect, one search each. Empty: every nuisance parameter at its
+  /// initial value, except those in s, which range from the shortest time step to the duration of the data.
   std::vector<Setting> scan = {};
 
   /// Wraps a model, for the stages invariants to history. Throws InputError if it cannot apply, for example without
   /// fibre parts.
   std::function<std::unique_ptr<Model>(std::unique_ptr<Model>, const Options&)> wrap_model = {};
-  /// Wraps a test, for the stages test and data. Throws InputError if it cannot apply. Beside its own options it gets
-  /// those of the test, under names that it does not declare itself.
+  /// Wraps a test, for the stages test and data. Throws InputError if it cannot apply. Besides its own options it
+  /// receives those of the test, under names that it does not declare itself.
   std::function<std::unique_ptr<Test>(std::unique_ptr<Test>, const Options&)> wrap_test = {};
 
-  /// Whether its options are those of a term of the energy, as `added_term` documents them. Discovery adds what it
-  /// finds to a model by the mechanism with this role.
+  /// Whether its options are those of a term of the energy, as `added_term` documents them. Discovery adds found terms
+  /// to a model with the mechanism that has this role.
   bool writes_terms = false;
-  /// Optional, for a mechanism of models that finite-element programs have as an energy of the volume: that energy at
-  /// these values of its own parameters. Throws InputError where no program has it with these options.
+  /// Optional, for a mechanism of models that finite-element programs offer as an energy of the volume: this energy at
+  /// given values of its parameters. Throws InputError if no program has it with these options.
   std::function<CardVolume(const Options&, std::span<const double>)> card_volume = {};
 
   /// The parameters of an object with these options.

@@ -61,17 +61,17 @@ class Problem {
   /// Evaluates k points in parallel. `xs` has k·n entries, one point a row; the outputs have k entries. The budget
   /// counts every point.
   virtual void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) = 0;
-  /// The same for a search that ranks the points and keeps at most `best` of them, 1 or more.
+  /// As evaluate_batch(), for a search that ranks the points and keeps at most `best` of them, 1 or more.
   ///
   /// The host may end the evaluation of a feasible point early, once its cheap tests alone make it worse than `best`
-  /// others of the batch. Its status is `ok`, and its objective a lower bound that is above those of the `best`
-  /// lowest. So these and their order are as evaluate_batch() gives them. The budget counts every point.
+  /// others of the batch. Its status is then `ok`, and its objective is a lower bound above those of the `best` lowest.
+  /// The `best` lowest and their order are therefore those of evaluate_batch(). The budget counts every point.
   virtual void evaluate_best(std::span<const double> xs, [[maybe_unused]] std::size_t best,
                              std::span<double> objectives, std::span<Status> statuses) {
     evaluate_batch(xs, objectives, statuses);
   }
   /// Evaluates one point with its residuals and, unless `jacobian` is empty, ∂r_i/∂x_j at [i·n + j] (row-major, as
-  /// Ceres wants it). A Jacobian is counted besides the evaluation.
+  /// Ceres wants it). A Jacobian is counted in addition to the evaluation.
   virtual Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
                            std::span<double> jacobian) = 0;
   /// Sets the constraint values and, unless `jacobian` is empty, ∂c_i/∂x_j at [i·n + j]. It is not an evaluation.
@@ -108,9 +108,9 @@ class Optimizer {
   struct Needs {
     bool residuals = false;    ///< calls linearise() and uses the residual blocks
     bool gradient = false;     ///< wants Jacobians from linearise() or constraints()
-    bool constraints = false;  ///< handles constraint_count() > 0; else a run with constraints is refused
+    bool constraints = false;  ///< handles constraint_count() > 0; otherwise a run with constraints is refused
     bool batch = false;        ///< calls evaluate_batch() or evaluate_best()
-    bool random = false;       ///< gives other results with another seed
+    bool random = false;       ///< results depend on the seed
     /// Compares or combines objectives of feasible and infeasible points, as augmented Lagrangians and stochastic
     /// ranking do. Without it evaluate() leaves out costly tests where a constraint is violated; linearise() never
     /// does.
@@ -118,13 +118,13 @@ class Optimizer {
     /// The largest number of parameters that it searches with its options; a run with more is refused.
     std::size_t most_parameters = std::numeric_limits<std::size_t>::max();
   };
-  /// The end of a search. It holds no point: the host has kept the best one.
+  /// The end of a search. It contains no point, because the host keeps the best one.
   struct Outcome {
     bool converged = false;  ///< whether the method's own criterion ended it, not the budget
     std::string reason;      ///< for the report, for example "step below tolerance"
   };
   virtual ~Optimizer() = default;
-  /// The needs of this object. Its options fix them, so that it returns a member.
+  /// The needs of this object. Its options determine them, so it returns a member.
   [[nodiscard]] virtual const Needs& needs() const = 0;
   /// Searches from problem.start(). Returns when it has converged, or soon after should_stop() turns true.
   virtual Outcome minimise(Problem& problem) = 0;

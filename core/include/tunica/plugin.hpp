@@ -35,8 +35,8 @@
 #else
 #define TUNICA_LIBRARY_DEBUG_ "release"
 #endif
-/// What must be equal on both sides so that C++ objects can cross: compiler, standard library and its modes, language,
-/// Eigen and its alignment, JSON. "; " separates the fields, so that a refusal can show those that differ.
+/// The properties that both sides must share before C++ objects can cross: compiler, standard library and its modes,
+/// language, Eigen and its alignment, JSON. "; " separates the fields, so a refusal can show those that differ.
 #define TUNICA_ABI_FINGERPRINT \
   "compiler " TUNICA_TEXT(__GNUC__) "; libstdc++ cxx11-abi " TUNICA_TEXT(_GLIBCXX_USE_CXX11_ABI) " "    \
   TUNICA_LIBRARY_DEBUG_ "; c++ " TUNICA_TEXT(__cplusplus) "; eigen " TUNICA_TEXT(EIGEN_WORLD_VERSION) "." \
@@ -46,7 +46,7 @@
 
 namespace tunica {
 
-/// How the host makes a model, and what it prints about the type before there is one.
+/// How the host makes a model, and what it prints about the type before it makes one.
 struct ModelFactory {
   /// Name in experiment files: lower case, with underscores. It must be unique among all models.
   std::string type;
@@ -60,8 +60,8 @@ struct ModelFactory {
   std::function<std::unique_ptr<Model>(const Options&)> create;
   /// Optional, for a model whose energy finite-element programs have: that energy. `tunica export` writes its cards.
   CardFormula card = {};
-  /// Whether its option "terms" takes any term of the energy, as `composed` documents them. Discovery writes what it
-  /// finds by the model with this role.
+  /// Whether its option "terms" takes any term of the energy, as `composed` documents them. Discovery writes its
+  /// results with the model that has this role.
   bool writes_terms = false;
 };
 
@@ -75,10 +75,10 @@ inline ModelFactory with_card(ModelFactory factory, CardFormula card) {
 /// that an experiment may free have the same names.
 struct StandIn {
   std::string type;  ///< TestFactory::type of the other test
-  Options options;   ///< of the other test; what is missing takes its default there
+  Options options;   ///< of the other test; missing options take their default there
 };
 
-/// How the host makes a test, and what it prints about the type before there is one.
+/// How the host makes a test, and what it prints about the type before it makes one.
 struct TestFactory {
   /// Name in experiment files: lower case, with underscores. It must be unique among all tests.
   std::string type;
@@ -98,15 +98,15 @@ struct TestFactory {
   std::vector<Parameter> parameters = {};
   /// Whether it takes a wall of layers with a model each, see TestSetup::layers.
   bool layered = false;
-  /// Optional, for a costly test: the cheaper test that guides a search where an experiment asks for a guide. The
-  /// answer stays that of this test. Empty, or none for these options: there is no guide.
+  /// Optional, for a costly test: the cheaper test that guides a search if an experiment requests a guide. The result
+  /// is still that of this test. Empty, or none for these options: there is no guide.
   std::function<std::optional<StandIn>(const Options&)> stand_in = {};
   /// Optional: experiments of this type that a lab could make next. A diagnosis suggests the one that tells its rivals
   /// apart best. It does not suggest types without this function.
   std::function<std::vector<PlannedTest>(const PlanningScope&)> plan = {};
 };
 
-/// How the host makes an optimizer, and what it prints about the type before there is one.
+/// How the host makes an optimizer, and what it prints about the type before it makes one.
 struct OptimizerFactory {
   /// Name in experiment files: lower case, with underscores. It must be unique among all optimizers.
   std::string type;
@@ -118,16 +118,15 @@ struct OptimizerFactory {
   std::vector<Option> options;
   /// Makes an optimizer, a new one for every search. Throws InputError for combinations that make no sense.
   std::function<std::unique_ptr<Optimizer>(const Options&)> create;
-  /// Whether it goes down from its start by the Jacobian of the residuals, and its option "starts" says how often. What
-  /// refines a fit takes the optimizer with this role: intervals, certificates, the extended experiment of a diagnosis.
+  /// Whether it descends from its start by the Jacobian of the residuals, and its option "starts" is the number of
+  /// starts. Refits use the optimizer with this role: intervals, certificates, the extended experiment of a diagnosis.
   bool refines = false;
 };
 
-/// Receives the factories of a plugin, any number of each kind. Nothing counts unless the registration returns
-/// normally.
+/// Receives the factories of a plugin, any number of each kind. They count only if the registration returns normally.
 ///
 /// Names are lower case, with digits and underscores, for example "fibre_damage".
-/// The host checks names after that: a name that is taken already, or that breaks the rules, refuses the whole plugin.
+/// The host checks names afterwards. It refuses the whole plugin if a name is already taken or breaks the rules.
 class Registry {
  public:
   virtual ~Registry() = default;
@@ -152,7 +151,7 @@ struct PluginHeader {
   const char* fingerprint;
   /// Name of the plugin in messages and results.
   const char* name;
-  /// Version of the plugin; its author counts.
+  /// Version of the plugin, chosen by its author.
   const char* version;
   /// The body that follows TUNICA_PLUGIN; called only if all of the above is right.
   void (*register_into)(Registry&);
@@ -162,8 +161,8 @@ struct PluginHeader {
 
 /// Defines the exported symbol of a plugin.
 ///
-/// It stands once in a plugin, at global scope, in one of its source files.
-/// cmake/tunica_plugin.map hides every other symbol.
+/// Use it once in a plugin, at global scope, in one of its source files. cmake/tunica_plugin.map hides every other
+/// symbol.
 ///
 /// The first argument is the name of the plugin in messages and results, the second its version. The body that follows
 /// registers what the plugin provides; the host runs it once, when it loads the plugin.

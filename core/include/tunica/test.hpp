@@ -22,10 +22,10 @@ struct Observable {
     channel,   ///< measured, and compared with the prediction
     time       ///< the clock, in s; models with history need it
   };
-  /// What the host can check and convert beyond the unit.
+  /// The checks and conversions of the host beyond the unit.
   enum class Kind {
     plain,    ///< nothing
-    stretch,  ///< the host warns where a strain, or a percentage, was given for a stretch
+    stretch,  ///< the host warns of a strain or a percentage in place of a stretch
     stress    ///< the data state a stress measure: Cauchy, first or second Piola–Kirchhoff
   };
   /// Name in "columns" of the experiment file, for example "stretch".
@@ -40,20 +40,20 @@ struct Observable {
   std::string doc;
   /// What the host checks and converts.
   Kind kind = Kind::plain;
-  /// Of a channel: the abscissa that plots and messages lay it over, for example the axial stretch of an axial stress.
-  /// Empty: the host takes the abscissa that the rows sweep. It also does so where the data do not map this one, or
-  /// hold it while another one is swept.
+  /// For a channel: its abscissa in plots and messages, for example the axial stretch for an axial stress. Empty: the
+  /// host takes the abscissa that varies over the rows. It also does so if the data do not map this abscissa, or hold
+  /// it while another one varies.
   std::string over = {};
 };
 
-/// The rows of one experiment in loading order, in base units. Spans live as long as the call that receives them.
+/// The rows of one experiment in loading order, in base units. Spans are valid during the call that receives them.
 struct TestRows {
   /// The values of one mapped observable.
   struct Column {
     std::string observable;          ///< Observable::name
     std::span<const double> values;  ///< one a row
-    /// This is a stretch 1 + d/L with a measured change of length d and a gauge length L, or 1 + strain. So a wrong
-    /// gauge length scales the stretch less 1. Of another stretch it scales the whole.
+    /// Whether this is a stretch 1 + d/L, with a measured change of length d and a gauge length L, or 1 + strain. A
+    /// wrong gauge length then scales the stretch minus 1. It scales any other stretch as a whole.
     bool from_elongation = false;
   };
   /// n, the number of rows.
@@ -66,7 +66,7 @@ struct TestRows {
   std::span<const double> time;
 };
 
-/// What TestSetup::card is asked for.
+/// The card that a test requests from TestSetup::card.
 struct CardRequest {
   std::string program;   ///< a target of `tunica export`, for example "calculix"
   std::string units;     ///< its system of units, for example "mm-N-MPa"
@@ -83,37 +83,39 @@ struct TestSetup {
   std::string stress_measure;
   /// Thickness of each layer from inside, in mm, positive. Empty = one model; others only if TestFactory::layered.
   std::vector<double> layers = {};
-  /// The folder of the experiment file, absolute. Names of files in options begin there unless they are absolute.
+  /// The folder of the experiment file, absolute. Relative file names in options refer to it.
   std::string folder = {};
-  /// Factor from one unit to another, in UDUNITS spelling: unit_factor("kPa", "MPa") = 0.001. It throws InputError
-  /// where a unit is unknown or the two measure different things. Empty where a host has no units.
+  /// Factor from one unit to another, in UDUNITS spelling: unit_factor("kPa", "MPa") = 0.001. It throws InputError if a
+  /// unit is unknown or the dimensions differ. Empty if the host has no units.
   std::function<double(std::string_view from, std::string_view to)> unit_factor = {};
   /// The material card of a model for a finite-element program: card(model, values, {"calculix", "mm-N-MPa",
-  /// "TISSUE"}). It throws InputError where the program cannot express the model. Empty where a host writes no cards.
+  /// "TISSUE"}). It throws InputError if the program cannot express the model. Empty if the host writes no cards.
   std::function<std::string(const Model& model, std::span<const double> parameters, const CardRequest& request)> card =
       {};
-  /// What was measured of every channel of `rows`, n entries each; NaN = not measured. For a test that prescribes a
-  /// part of what it is compared with, for example the displacements of an edge. Empty where nothing was measured.
+  /// The measured values of every channel of `rows`, n entries each; NaN = not measured. A test needs them if it
+  /// prescribes some of the values that it is compared with, for example the displacements of an edge. Empty if nothing
+  /// was measured.
   std::vector<std::span<const double>> measured = {};
-  /// Whether a person ended the work. A test that waits for something outside of the process asks ten times a second,
-  /// gives up and returns `failed`; what it returns is then not recorded. Empty where a host cannot be interrupted.
+  /// Whether the user interrupted the work. A test that waits for something outside the process calls it ten times a
+  /// second. After an interruption it gives up and returns `failed`, which the host does not record. Empty if the host
+  /// cannot be interrupted.
   std::function<bool()> interrupted = {};
 };
 
-/// How the host differences a test that has no derivatives of its own, with any model.
+/// How the host differences a test that never provides derivatives, whatever the model.
 ///
 ///     forward:  ∂f/∂p_j ≈ (f(p + h_j e_j) − f(p)) / h_j           one prediction a parameter
 ///     central:  ∂f/∂p_j ≈ (f(p + h_j e_j) − f(p − h_j e_j)) / 2h_j  two
 ///
-/// with h_j = step · |p_j|, on a linear scale at least of a hundredth of the range. The predictions run side by side.
-/// Between differences a search may go on with Broyden's update of the Jacobian J of its last point, which costs no
-/// prediction (Broyden, Math. Comp. 19:577, 1965; here with parameters measured on their scale):
+/// with h_j = step · |p_j|, but on a linear scale at least step times a hundredth of the range. The predictions run in
+/// parallel. Between differences a search may use Broyden's update of the Jacobian J of its last point, which costs no
+/// prediction (Broyden, Math. Comp. 19:577, 1965; here with scaled parameters):
 ///
 ///     J⁺ = J + (Δf − J Δp) (W Δp)ᵀ / (Δpᵀ W Δp),  W = diag(1/scale_j²)
 struct Differencing {
   double step = 1e-4;    ///< relative; the error of the simulation's numbers, divided by it, enters the derivative
   bool central = false;  ///< whether two predictions are made a parameter
-  bool updates = false;  ///< whether Broyden's update stands in while it predicts well
+  bool updates = false;  ///< whether Broyden's update replaces differences while it predicts well
 };
 
 /// The properties of a test. They never change during the test's life.
@@ -129,26 +131,28 @@ struct TestDescription {
   /// The null of each parameter: the value at which an imperfection vanishes. NaN marks an ordinary parameter, which
   /// is fitted unless the file fixes it; the others rest at their null unless a mechanism frees them.
   std::vector<double> nulls;
-  /// Names of the diagnostics: quantities that the test can report and nobody fits, for example "transverse_stretch".
+  /// Names of the diagnostics: quantities that the test reports but that are not fitted, for example
+  /// "transverse_stretch".
   std::vector<std::string> diagnostics;
   /// Base unit of each diagnostic.
   std::vector<std::string> diagnostic_units;
   /// The material axis that a strip with free lateral faces is pulled along to its abscissa "stretch": 0 =
   /// circumferential, 1 = axial. The host then checks transverse stability. None for other tests.
   std::optional<std::size_t> free_strip_axis = {};
-  /// Whether the Jacobian is exact along the whole path of a model with memory too, if ModelDescription says that the
-  /// model can be followed (axis_history_size). Where it is not, the host differences predictions.
+  /// Whether the Jacobian is exact along the whole path even for a model with memory, if the model's axis_history_size
+  /// is not 0. Otherwise the host differences predictions.
   bool path_derivatives = false;
-  /// Own parameters that have to rest at their null for that: if one is free or elsewhere, the host differences.
+  /// The test's parameters that must rest at their null for such an exact Jacobian. If one is free or has another
+  /// value, the host differences.
   std::vector<std::string> path_exceptions = {};
   /// Whether a prediction takes long, as with finite elements. The host then runs cheaper tests first, and skips this
-  /// one where those fail. Where a constraint is violated it runs only for optimizers that need it, see
+  /// one if they fail. At a point that violates a constraint, it runs only for optimizers that need it, see
   /// Optimizer::Needs::infeasible.
   bool costly = false;
-  /// Set by a test that has no derivatives whatever the model: the host differences it like this.
+  /// Set by a test that never has derivatives. The host differences it as declared here.
   std::optional<Differencing> differencing = {};
-  /// The names of the model's parameters that a prediction depends on. The host refuses a run that searches for others
-  /// in this test, and names that the model does not have. None = all.
+  /// The names of the model's parameters on which a prediction depends. The host refuses a run that frees others in
+  /// this test, and refuses names that the model lacks. None = all.
   std::optional<std::vector<std::string>> reads = {};
   /// The materials that the test can carry. The host refuses others.
   Volume volume = Volume::kept;
@@ -170,9 +174,9 @@ struct TestInput {
   std::span<const Model* const> layers = {};
 };
 
-/// The output of one prediction, in memory of the caller. An empty span means "not wanted".
+/// The output of one prediction, in the caller's memory. An empty span means "not wanted".
 ///
-/// With c channels and n rows, channel k of row i stands at [k·n + i].
+/// With c channels and n rows, channel k of row i is at [k·n + i].
 struct TestOutput {
   /// c·n entries: predictions, in base units and in the stress measure of the data.
   std::span<double> values;
@@ -186,7 +190,7 @@ struct TestOutput {
 
 /// The distance between a test and an independent solution of a problem that both can solve, with one material.
 struct Agreement {
-  /// What was compared: "the semi-analytic long tube, ends sliding: outer diameter stretch".
+  /// The compared problem and quantity: "the semi-analytic long tube, ends sliding: outer diameter stretch".
   std::string with;
   /// The largest difference, in `unit`.
   double difference = 0;
@@ -194,9 +198,9 @@ struct Agreement {
   std::string unit;
   /// The largest difference that discretisation explains. A larger one is a fault.
   double expected = 0;
-  /// c·n entries, as TestOutput::values: what a finer discretisation of the same problem adds to the predictions. The
-  /// host makes the bias of fitted parameters of it, and adds up those of several comparisons. Empty: another kind of
-  /// comparison.
+  /// c·n entries, as TestOutput::values: the change of the predictions under a finer discretisation of the same
+  /// problem. The host computes the bias of fitted parameters from it, and sums the biases of several comparisons.
+  /// Empty for another kind of comparison.
   std::vector<double> shift = {};
 };
 
@@ -236,12 +240,11 @@ struct Effort {
 /// alone, tunica/tests/point_test.hpp needs only two formulas. A test around another one begins with
 /// tunica/tests/decorated_test.hpp.
 ///
-/// Derivatives: the Jacobian is exact wherever the model has parameter derivatives. Where it has none, the test
-/// returns `failed` if a Jacobian is wanted, and the host differences whole predictions. With a model that remembers,
-/// it is exact if TestDescription::path_derivatives says so.
-/// Threads: every method is const and is called concurrently.
-/// Failure: a status whose reason names row and abscissa; never a NaN under `ok`, never an exception.
-/// Ownership: the test owns its copy of the rows, and what describe() returns.
+/// Derivatives: the Jacobian is exact if the model has parameter derivatives. If it has none, the test returns `failed`
+/// when a Jacobian is wanted, and the host differences whole predictions. For a model with memory,
+/// TestDescription::path_derivatives says whether the Jacobian is exact. Threads: every method is const and is called
+/// concurrently. Failure: a status whose reason names row and abscissa; never a NaN under `ok`, never an exception.
+/// Ownership: the test owns its copy of the rows and the result of describe().
 class Test {
  public:
   virtual ~Test() = default;
@@ -261,7 +264,7 @@ class Test {
                            [[maybe_unused]] std::vector<Snapshot>& found) const {
     return Status::failed("this test has no fields to show");
   }
-  /// Optional, for results: what it has done so far, in an order that stays.
+  /// Optional, for results: counts of its work so far, always in the same order.
   [[nodiscard]] virtual std::vector<Effort> efforts() const { return {}; }
 };
 
