@@ -9,12 +9,12 @@
 
 namespace tunica::detail {
 
-/// Deepest nesting of JSON that is read; no file of tunica needs more than a dozen levels. The library copies, compares
-/// and writes values by recursion, so that a file of 80 000 brackets would overflow the stack.
+/// Deepest accepted nesting of JSON; no file of tunica needs more than a dozen levels. The library copies, compares and
+/// writes values recursively, so a file of 80 000 brackets would overflow the stack.
 inline constexpr std::size_t deepest_json = 64;
 
-/// The byte of the bracket that opens one level too many; npos where none does. Whether the text is JSON at all is for
-/// the parser to say.
+/// The position of the bracket that exceeds the nesting limit; npos if none does. It does not check that the text is
+/// JSON.
 inline std::size_t excess_of_levels(std::string_view text, bool comments = false) {
   std::size_t depth = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
@@ -37,8 +37,8 @@ inline std::size_t excess_of_levels(std::string_view text, bool comments = false
   return std::string_view::npos;
 }
 
-/// As parse() of the JSON library, for every text that somebody else may have written: what is nested deeper than 64
-/// levels is a parse_error, or discarded where `exceptions` are not wanted.
+/// As parse() of the JSON library, for untrusted text: nesting deeper than 64 levels is a parse_error, or gives a
+/// discarded value without `exceptions`.
 template <class Json = nlohmann::json>
 Json parse_json(std::string_view text, bool exceptions = true, bool comments = false) {
   const std::size_t excess = excess_of_levels(text, comments);

@@ -17,7 +17,7 @@
 /// Tests of one material point with a compressible model: values and derivatives of every row.
 namespace tunica::free_faces {
 
-/// The same call for the model without compressibility, where it keeps its volume.
+/// The same call with the incompressible model, if the model keeps its volume.
 inline TestInput without_compressibility(const TestInput& input) {
   if (!input.model.describe().compressible) return input;
   const Model& model = input.model.incompressible();
@@ -26,8 +26,8 @@ inline TestInput without_compressibility(const TestInput& input) {
 }
 
 /// One call of a test that can have both kinds of material: `kept(input, output)` simulates J = 1, `changing(input,
-/// output)` solves for the volume. Where a compressible model keeps its volume, the first answers, bit for bit; only
-/// the derivatives by parameters, among them the one that vanishes there, are those of the whole model.
+/// output)` solves for the volume. If a compressible model keeps its volume, results are those of `kept`, bit for bit.
+/// Only derivatives by parameters, including the vanishing one, are those of the whole model.
 template <class Kept, class Changing>
 Status by_volume(const TestInput& input, const TestOutput& output, const Kept& kept, const Changing& changing) {
   if (!input.model.describe().compressible) return kept(input, output);
@@ -38,8 +38,8 @@ Status by_volume(const TestInput& input, const TestOutput& output, const Kept& k
   return !status.ok() || output.jacobian.empty() ? status : changing(input, {{}, output.jacobian, {}, {}});
 }
 
-/// Predicts a test with a compressible model. A Specimen says what a row prescribes and what is read off it, written
-/// for any type of number; x are the abscissae of a row, q the test's parameters:
+/// Predicts a test with a compressible model. A Specimen defines the prescribed and the measured quantities of a row,
+/// for any number type; x are the abscissae of a row, and q are the test's parameters:
 ///
 ///     std::size_t count() const, channels() const;                                     // rows; channels
 ///     std::size_t faces() const;                                                       // how many are free

@@ -8,7 +8,7 @@
 
 namespace tunica::detail {
 
-/// What a test whose rows are at equilibrium, each by itself, says of a model that it cannot carry; ok where it can.
+/// The status of a test with independent equilibrium rows for a model that it cannot simulate; ok if it can.
 inline Status elastic_only(std::string_view test, const TestInput& input, const TestOutput& output) {
   const ModelDescription& model = input.model.describe();
   const std::string name = std::string(test) + ": ";

@@ -10,8 +10,8 @@
 
 #include "tunica/model.hpp"
 
-/// A compressible material point of which some faces are free: the squared stretches u_k along unit vectors d_k are not
-/// prescribed, and no traction acts across them.
+/// A compressible material point with some free faces. The squared stretches u_k along unit vectors d_k are not
+/// prescribed, and no traction acts on these faces.
 ///
 ///     C = C₀ + Σ_k u_k d_k⊗d_k,   0 = r_k = ∂W/∂y_k = ½ u_k S_kk,   y_k = ln u_k,   S_kk = d_k·S d_k
 ///
@@ -54,7 +54,7 @@ TensorOf<T> inverse(const TensorOf<T>& C) {
           (C[4] * C[5] - C[3] * C[2]) / d, (C[3] * C[5] - C[0] * C[4]) / d, (C[3] * C[4] - C[1] * C[5]) / d};
 }
 
-/// One point after another: solve(), then what the solution depends on. Its memory is reused from point to point.
+/// Solves one point after another: solve(), then the derivatives of the solution. Its memory is reused between points.
 class Point {
  public:
   /// d_k⊗d_k of no face or up to two, orthonormal. Model and parameters outlive the point.
@@ -124,7 +124,7 @@ class Point {
 
  private:
   static constexpr int most_steps = 40, most_trials = 200;
-  static constexpr double last_step = 1e-8;  ///< of y; what it leaves behind is its square
+  static constexpr double last_step = 1e-8;  ///< of y; the remaining error is its square
 
   [[nodiscard]] Tensor at_rest() const {
     Tensor rest{1, 1, 1, 0, 0, 0};
@@ -140,7 +140,7 @@ class Point {
     return model_.evaluate({1, C_, parameters_, {}, {}}, {energy, stress_, tangent, stress_dp, {}});
   }
 
-  /// Newton's method at the present C₀. False where it does not end.
+  /// Newton's method at the present C₀. False if it does not converge.
   bool settle() {
     double energy = 0;
     if (!evaluate({&energy, 1}, tangent_, {}).ok() || !sound(energy)) return false;
@@ -234,8 +234,8 @@ class Point {
     }
   }
 
-  /// Takes the pressure out that rounding leaves on the first free face: of a nearly incompressible material it is
-  /// large beside the stress.
+  /// Removes the pressure that rounding leaves on the first free face. In a nearly incompressible material it is large
+  /// compared with the stress.
   void relieve() {
     if (count_ == 0) return;
     const Tensor inverse = free_faces::inverse(C_);

@@ -25,7 +25,7 @@ namespace tunica::free_strip {
 inline constexpr double last_step = 1e-6;
 /// Of a batch; rows that need more are solved one by one.
 inline constexpr int newton_iterations = 12;
-/// What is said of a row without equilibrium.
+/// The message about a row without equilibrium.
 inline constexpr const char* lost_row =
     "no lateral equilibrium: the energy overflows or has no stationary point on the path from rest";
 
@@ -170,8 +170,8 @@ class Batch {
   std::size_t l_, t_;
 };
 
-/// The root for one stretch on the path from rest, by continuation in ln λ1 with step halving. For rows that the
-/// batch iteration could not bring home: overflow on the way, more than one root, a kink.
+/// The root for one stretch on the path from rest, by continuation in ln λ1 with step halving. It serves rows in which
+/// the batch iteration failed: overflow on the way, more than one root, a kink.
 inline bool solve_from_rest(const Pull& pull, double stretch, Scratch& scratch, double& u) {
   const double target = std::log(stretch);
   double l = 0, y = 0, step = target / 4;
@@ -203,9 +203,9 @@ inline bool solve_from_rest(const Pull& pull, double stretch, Scratch& scratch, 
   return false;
 }
 
-/// Newton over the batch until every step is below `tolerance`. `u` is updated but for that last step, which stays in
-/// the batch. Rows that do not get there are solved one by one; `lost` is the first that cannot be followed from rest,
-/// or none. What these came to may be a jump: first_unsettled() sees that.
+/// Newton's method over the batch until every step is below `tolerance`. `u` lacks only the last step, which stays in
+/// the batch. Rows that do not converge are solved one by one; `lost` is the first row that cannot be followed from
+/// rest, or none. Such a row may end at a jump, which first_unsettled() detects.
 inline Status iterate(const Pull& pull, std::span<const double> stretch, double tolerance, Batch& batch,
                       std::span<double> u, std::optional<std::size_t>& lost) {
   const std::size_t n = stretch.size();
@@ -246,7 +246,7 @@ inline Status jumping_row() {
       "no lateral equilibrium: where a family of fibres switches, the lateral stress jumps from one sign to the other");
 }
 
-/// The first of n rows whose Newton step, or the want of one, says that it is in no equilibrium; n = none.
+/// The first of n rows that is not in equilibrium, judged by its Newton step or a missing step; n = none.
 inline std::size_t first_unsettled(const double* step, std::size_t n, double tolerance) {
   return static_cast<std::size_t>(
       std::find_if(step, step + n, [tolerance](double value) { return !(std::abs(value) < tolerance); }) - step);

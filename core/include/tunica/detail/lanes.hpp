@@ -11,12 +11,12 @@
 #include <emmintrin.h>
 #endif
 
-/// A vector of the machine as a number, so that a formula is evaluated at several points at once. A plain loop over
-/// lanes is shorter where the compiler vectorises it; the formula of an author may branch, and then no compiler does.
+/// A vector register as a number type, which evaluates a formula at several points at once. A plain loop over lanes
+/// would be shorter, but compilers do not vectorise a formula with branches.
 ///
-/// A comparison decides for all lanes what is true in the first, and notes in `lanes_in_step` which of the others
-/// agree. Results of those that do not mean nothing: whoever evaluates a formula sets all bits before, and evaluates
-/// lanes that are left over again. So the result of a lane does not depend on what is in the others.
+/// A comparison takes the result of the first lane for all lanes, and notes in `lanes_in_step` which others agree.
+/// Results of disagreeing lanes are invalid. The caller sets all bits before it evaluates a formula, and evaluates
+/// disagreeing lanes again. The result of a lane therefore does not depend on the values in other lanes.
 ///
 /// Everything is inlined into the kernels of vector_level.hpp, which know the instructions.
 #if defined(__GNUC__) && !defined(__clang__)
@@ -83,7 +83,7 @@ TUNICA_TWO_(pow, 8, "eN8", "avx512f")
 #undef TUNICA_KERNELS_2_
 #endif
 
-/// `width` numbers side by side: 2, 4 or 8.
+/// `width` numbers in one register: 2, 4 or 8.
 template <std::size_t width>
 struct Lanes {
   using Vector = typename VectorOf<width>::Type;

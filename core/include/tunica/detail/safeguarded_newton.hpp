@@ -15,7 +15,7 @@ struct Residual {
 /// Root of r(y) by Newton's method inside a bracket, from a start where r is finite. r is expected to rise through
 /// the root that is looked for. Overflow is walked around: a step into it is halved until it ends where r is finite.
 /// Returns false when no bracket is found, or where r overflows at the start or inside the bracket. Where r jumps from
-/// one sign to the other, it ends at the jump: who expects jumps looks at r there.
+/// one sign to the other, it ends at the jump; a caller that expects jumps must check r there.
 template <class Function>
 bool safeguarded_newton(const Function& function, double& y, double tolerance = 1e-14) {
   Residual r = function(y);

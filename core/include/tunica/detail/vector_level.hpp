@@ -24,8 +24,8 @@
 /// addition and by the vector functions of libmvec: energies by 1e-13 relative, free strips by 2e-12, curves of finite
 /// elements by 1e-13 and their derivatives by 1e-11.
 ///
-/// Loops over lanes have to be padded where a value must not depend on its place: the compiler finishes a loop of odd
-/// length with scalar functions.
+/// Pad loops over lanes if a value must not depend on its position: the compiler finishes a loop of odd length with
+/// scalar functions.
 ///
 /// Threads: everything here is thread-safe.
 ///
@@ -59,7 +59,7 @@ inline constexpr std::optional<VectorLevel> vector_level_called(std::string_view
   return {};
 }
 
-/// The variable of the environment that holds the level down.
+/// The environment variable that limits the level.
 inline constexpr const char* vector_level_variable = "TUNICA_VECTOR_LEVEL";
 /// Lanes of a double at the widest level. Rows of scratch memory are multiples of it.
 inline constexpr std::size_t widest = 8;
@@ -90,7 +90,7 @@ inline VectorLevel best_vector_level() {
 /// The level of this library: −1 until it is first asked for.
 inline constinit std::atomic<int> chosen_vector_level = -1;
 
-/// Chooses the level from now on, in this library; for tests and benchmarks. More than the processor has is not taken.
+/// Sets the level of this library from now on, for tests and benchmarks. A level above the processor's is ignored.
 inline void use_vector_level(VectorLevel level) {
   const VectorLevel best = best_vector_level();
   chosen_vector_level.store(static_cast<int>(level < best ? level : best), std::memory_order_relaxed);
@@ -137,8 +137,8 @@ run_on_avx512(const Kernel& kernel) {
 }
 #endif
 
-/// Runs a part of a kernel as a function of its own, with the instructions of the level that has so many lanes. What is
-/// inlined into a large kernel is optimised worse than the same code alone.
+/// Runs a part of a kernel as a separate function, with the instructions of the level with this many lanes. Compilers
+/// optimise code inside a large kernel less well than the same code alone.
 template <std::size_t width, class Kernel>
 [[gnu::always_inline]] inline void apart(const Kernel& kernel) {
 #ifdef TUNICA_VECTOR_LEVELS_

@@ -122,7 +122,7 @@ struct GrowingExponential {
 };
 
 /// ψ = (3μ/2) ln(1 + x/3): with x = I2 − 3 the second term of Gent and Thomas (1958), ln(I2/3). It is concave in x, and
-/// the energy convex in the stretches for all that.
+/// the energy is nevertheless convex in the stretches.
 struct Logarithm {
   static constexpr std::size_t parameter_count = 1;  ///< μ, kPa
 

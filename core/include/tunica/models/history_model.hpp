@@ -16,13 +16,12 @@ namespace tunica {
 /// state. This class divides each call between the two; a subclass implements one step and sees only its own part.
 ///
 /// Parameter derivatives of a single step are refused, because the state depends on the parameters of earlier steps.
-/// parts() are those of the base, and add up to the energy of the response without memory. They serve who looks for
-/// directions or names of terms; a mechanism that rebuilds an energy from them would lose the memory, so that such
-/// mechanisms are applied to the base first (Stage), or leave the model whole and add to it (ModelSum).
-/// A subclass that says how many doubles it remembers in principal axes, and implements remember_step(), gets exact
-/// derivatives along whole paths in the tests that follow paths in principal axes. Elsewhere the host differences whole
-/// paths. evaluate_axes() is off: a single call knows no past.
-/// Threads and failure: as Model.
+/// parts() are those of the base, and add up to the energy of the response without memory. They give the directions and
+/// names of terms. A mechanism that rebuilds an energy from them would lose the memory. Such mechanisms are therefore
+/// applied to the base first (Stage), or add to the whole model (ModelSum). A subclass may declare its number of state
+/// doubles in principal axes and implement remember_step(). Tests that follow paths in principal axes then have exact
+/// derivatives along whole paths. Elsewhere the host differences whole paths. evaluate_axes() is off, because a single
+/// call has no history. Threads and failure: as Model.
 class HistoryModel : public Model {
  public:
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
