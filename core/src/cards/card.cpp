@@ -122,7 +122,7 @@ std::string card_of(Target target, const Draft& draft) {
   return "";
 }
 
-/// Whether the program has the model, whatever the settings. Units and bulk modulus are such that no program minds.
+/// Whether the program has the model, whatever the settings. Units and bulk modulus here suit every program.
 bool can_express(Target target, const Material& material, bool subroutine) {
   const CardSettings settings{.density = 1000, .subroutine = subroutine};
   Draft draft{material, settings, settings.units.stress_per_kPa};

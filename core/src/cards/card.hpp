@@ -25,7 +25,7 @@ inline constexpr text::Codes<Target, 5> target_codes = {{{Target::febio, "febio"
 /// Throws InputError with the nearest name.
 Target target_of(std::string_view name);
 
-/// What a card says beside the model and its parameters.
+/// The contents of a card besides the model and its parameters.
 struct CardSettings {
   /// The name of the material: a letter, then letters, digits, '_' or '-', at most 40 in all.
   std::string name = "TISSUE";

@@ -21,7 +21,7 @@ struct Draft {
   [[nodiscard]] std::string density() const;
 };
 
-/// What a writer throws where its program cannot express the model. write_card() adds which programs can.
+/// The exception of a writer whose program cannot express the model. write_card() adds the programs that can.
 struct CannotExpress {
   std::string reason;
   std::string cure;  ///< what to fit instead; "" = nothing

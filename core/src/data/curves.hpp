@@ -16,7 +16,7 @@ struct Prescribed {
   std::vector<double> values;  ///< one a row
 };
 
-/// What a channel is drawn over.
+/// The abscissa of a channel in plots.
 struct Abscissa {
   std::size_t column = 0;           ///< in the prescribed quantities
   std::vector<std::string> curves;  ///< one a row, "stretch_axial = 1.3"; empty where all rows are one curve

@@ -20,7 +20,7 @@ struct Noise {
   double absolute = 0, relative = 0, correlation = 0;
   /// y of every row, where something is known of it that is better than the measured value; empty = that.
   std::vector<double> level = {};
-  /// Rows whose values are gross errors: their σ is taken a thousandfold, so that they say nothing.
+  /// Rows whose values are gross errors: their σ is multiplied by a thousand, which removes their influence.
   std::vector<std::size_t> gross = {};
 };
 
@@ -34,7 +34,7 @@ struct RowRange {
   [[nodiscard]] std::pair<std::size_t, std::size_t> among(std::size_t count) const;
 };
 
-/// What the order of the rows stands for.
+/// The meaning of the order of the rows.
 enum class Order {
   unknown,  ///< nobody says
   loading   ///< rows stand as they were measured
@@ -43,7 +43,7 @@ inline constexpr text::Codes<Order, 2> order_names{{{Order::unknown, "unknown"},
 
 struct Dataset;
 
-/// What the experiment file says about the data of one test ("data": {…}).
+/// The "data" block of one test in the experiment file.
 struct DataRequest {
   std::vector<std::filesystem::path> files;  ///< several: replicates
   /// Observable, or what it follows from (quantities.hpp) → column, in file order.

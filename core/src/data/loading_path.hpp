@@ -7,10 +7,10 @@
 
 #include "data/dataset.hpp"
 
-/// What the rows of a test say about what the specimen bore before each of them.
+/// What is known of the loading before each row of a test.
 namespace tunica::data {
 
-/// Whether the past of every row is known, which whatever has memory needs.
+/// Whether the past of every row is known. Models and mechanisms with memory need it.
 enum class Past {
   known,            ///< rows stand as they were measured, and begin near rest or go on loading
   order_unknown,    ///< nobody says in which order they were measured

@@ -35,7 +35,7 @@ struct Quantity {
   std::string unit;              ///< base unit of the column
 };
 
-/// What "columns" may name beside the observables themselves.
+/// The names that "columns" may have besides the observables.
 struct RawName {
   std::string name;
   Quantity quantity;

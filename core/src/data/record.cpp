@@ -81,7 +81,7 @@ std::string word_of_compression(const Series& series) {
   return {};
 }
 
-/// As thick as long, within a factor of three: what is pressed stands up, what is pulled is slender.
+/// As thick as long, within a factor of three. Compressed specimens are squat; stretched ones are slender.
 std::string stub_words(const Series::Column& stretch, const Specimen& specimen) {
   if (!(stretch.gauge_length > 0) || specimen.gauge_at_preload) return {};
   const Sizes sizes = sizes_along(specimen, stretch.observable->name);

@@ -6,8 +6,8 @@
 #include "data/finding.hpp"
 #include "data/series.hpp"
 
-/// The record of a test against itself and against physics. Nothing here is refused: each finding is a question to
-/// whoever measured, and an honest record raises none.
+/// Checks the record of a test for consistency with itself and with physics. It refuses nothing: each finding is a
+/// question to the experimenter, and a correct record raises none.
 namespace tunica::data {
 
 /// All of the functions below.
@@ -16,7 +16,7 @@ void look_at_record(const Series& series, const DataRequest& request, std::vecto
 /// Rows after a sudden fall of the load that does not come back while the path goes on.
 void look_for_break(const Series& series, const DataRequest& request, std::vector<Finding>& findings);
 
-/// A stiffness that rises and then falls by far more than it scatters, as where a specimen slips, yields or tears.
+/// A stiffness that rises and then falls by far more than its scatter, as when a specimen slips, yields or tears.
 void look_for_softening(const Series& series, std::vector<Finding>& findings);
 
 /// A load in the first row although nothing is deformed there: a spike, or a load that was not tared.

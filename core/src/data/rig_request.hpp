@@ -10,7 +10,7 @@
 
 #include "text/codes.hpp"
 
-/// What an experiment file says about data as a testing machine wrote them, beyond "file" and "columns".
+/// The keys of an experiment file, besides "file" and "columns", for data as a testing machine wrote them.
 namespace tunica::data {
 
 /// How the table stands in its file; whatever is absent is found in the file.

@@ -127,13 +127,13 @@ class Reader {
     turn_signs();
   }
 
-  /// A measured number of which only the file knows what it is.
+  /// A measured number whose meaning only the file gives.
   static bool is_plain_number(const Quantity& quantity) {
     return quantity.kind == From::own && quantity.observable->role == Role::channel &&
            quantity.observable->kind == Observable::Kind::plain && quantity.unit == "1";
   }
 
-  /// Tension is positive here, whatever the file says.
+  /// Tension is positive here, whatever the convention of the file.
   void turn_signs() {
     const CompressionPositive& compression = request_.compression;
     for (std::size_t k = 0; k < quantities_.size(); ++k)

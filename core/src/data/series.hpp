@@ -10,7 +10,7 @@
 
 namespace tunica::data {
 
-/// Values that stand a step apart: what a device resolves, or an export rounds to.
+/// Values in fixed steps: the resolution of a device, or the rounding of an export.
 struct Grid {
   double step = 0, range = 0;  ///< step 0 = there is none
   std::size_t values = 0;      ///< how many different ones there are

@@ -50,8 +50,8 @@ Key<T> silent_at(Key<T> key, Json value) {
   return key;
 }
 
-/// An object of the file with these keys and no others. They are read in their order, so that a key may look at what
-/// the earlier ones gave.
+/// An object of the file with these keys and no others. They are read in order, so a key may look at what the earlier
+/// ones gave.
 template <class T>
 class Block {
  public:

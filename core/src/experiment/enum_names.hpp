@@ -8,7 +8,7 @@
 #include "experiment/experiment.hpp"
 #include "text/codes.hpp"
 
-/// What the values of enumerations are called in the experiment file.
+/// The names of enumeration values in the experiment file.
 namespace tunica::experiment {
 
 inline constexpr text::Codes<ObjectiveType, 3> objective_names{

@@ -25,7 +25,7 @@ struct Prior {
   double mean = 0, sd = 1;
 };
 
-/// What the file says about one parameter; an absent member leaves the plugin's declaration in force.
+/// The setting of one parameter in the file; an absent member keeps the plugin's declaration.
 struct ParameterSetting {
   std::optional<double> min, max, initial, fixed;
   std::optional<Scale> scale;
@@ -154,7 +154,7 @@ struct DiagnosisEntry {
   std::optional<bool> admissibility;            ///< whether lost stability changes the verdict
   std::vector<std::string> groups;              ///< of causes to consider; empty = all
   std::optional<double> wrong_files;            ///< share of files that are expected to say what is not so
-  /// What is not worth caring about: observable (empty = all) and "2 %" of its range, or a quantity in its unit.
+  /// The tolerated misfit: observable (empty = all) and "2 %" of its range, or a quantity in its unit.
   std::vector<std::pair<std::string, std::string>> tolerance = {};
 };
 
@@ -193,7 +193,7 @@ struct DiscoveryEntry {
   std::optional<double> alpha;  ///< level of significance
 };
 
-/// What is to be said about the uncertainty of every run's best point beyond the Laplace intervals.
+/// The requested analyses of uncertainty at every run's best point, besides the Laplace intervals.
 struct Analysis {
   bool all_profiles = false;
   std::vector<std::string> profiles;  ///< parameters as results name them; checked where the run is planned
@@ -253,8 +253,8 @@ struct Experiment {
 /// Without the tests that have no measured value, and the runs that are left without a test.
 Experiment measured_only(Experiment experiment);
 
-/// What an experiment is read for. A search needs optimizers and runs; a prediction needs models and tests only, and
-/// where the file has no runs, every model gets one over all tests.
+/// The purpose of reading an experiment. A search needs optimizers and runs; a prediction needs only models and tests,
+/// and where the file has no runs, every model gets one over all tests.
 enum class Purpose { search, prediction };
 
 /// Parses, validates and types an experiment file. Throws InputError: each message quotes what was found, names JSON

@@ -145,7 +145,7 @@ std::optional<std::uint64_t> Node::whole() const {
 std::uint64_t Node::count(std::string_view what, std::uint64_t at_least, std::uint64_t at_most) const {
   const auto value = whole();
   if (value && *value >= at_least && *value <= at_most) return *value;
-  // The largest number of all is only told to who went beyond it.
+  // The message states the largest number only if the value exceeds it.
   const bool bounded = at_most < std::numeric_limits<std::uint64_t>::max() || (is_number() && number(what) >= 0x1p64);
   fail_expected(bounded ? fmt::format("{} from {} to {}", what, at_least, at_most)
                         : fmt::format("{} from {}", what, at_least));

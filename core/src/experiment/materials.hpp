@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// What is published of materials: figures in published_stiffness.json, no code.
+/// Published stiffnesses of materials: the figures are data in published_stiffness.json.
 namespace tunica::experiment {
 
 /// Key of a model: what its material is.

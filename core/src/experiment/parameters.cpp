@@ -94,7 +94,7 @@ ParameterSettings read_mentioned_parameters(const Node& entry, const std::vector
   return settings;
 }
 
-/// Tied parameters are one unknown, so what is said of one must hold for all.
+/// Tied parameters are one unknown, so their settings must agree.
 void check_shared(const std::vector<SharedParameter>& shared) {
   std::map<std::string, std::vector<const SharedParameter*>, std::less<>> groups;
   for (const SharedParameter& member : shared) groups[member.group].push_back(&member);

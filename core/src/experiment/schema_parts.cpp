@@ -27,7 +27,7 @@ Json reference(std::string_view name, std::string_view description) {
   Json target = Json::object();
   target["$ref"] = fmt::format("#/definitions/{}", name);
   if (description.empty()) return target;
-  // Draft 7 ignores whatever stands beside a $ref.
+  // Draft 7 ignores all keys beside a $ref.
   Json schema = {{"description", description}};
   schema["allOf"] = Json::array({std::move(target)});
   return schema;

@@ -206,7 +206,7 @@ Block<DataRequest> table_block(const std::vector<Observable>& observables, const
   return {fmt::format("the data of {}", owner), "The measured data.", std::move(keys)};
 }
 
-/// Keys that another key, or what is mapped, leaves without effect.
+/// Keys that have no effect because of another key or of the mapped columns.
 void refuse_idle_keys(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
                       const data::DataRequest& data) {
   const auto has = [&](auto is) { return maps(data, observables, is); };

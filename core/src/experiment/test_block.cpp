@@ -144,7 +144,7 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
   });
   test.measured = channels > 0;
   test.weights = read_weights(entry, static_cast<std::size_t>(channels), owner);
-  // Weights of 1 stand in every saved input, and say nothing.
+  // Every saved input contains weights of 1, so they carry no information.
   if (test.hold_out.all && std::any_of(test.weights.begin(), test.weights.end(), [](double one) { return one != 1; }))
     entry.require("weight", owner)
         .fail(fmt::format("\"weight\" changes nothing in {}, which is held out", owner),

@@ -8,7 +8,7 @@
 
 #include "data/csv.hpp"
 
-/// What the columns of a machine's file probably are, from their names, their units and what stands in them.
+/// Guesses of the columns in a machine's file, from their names, units and values.
 namespace tunica::importing {
 
 /// The kind of a column that holds the force on the closed end of a tube, pressure on the lumen included.

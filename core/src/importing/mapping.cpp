@@ -113,7 +113,7 @@ class Mapper {
     return measure == "true" ? "true_strain" : measure == "green" ? "green_strain" : "strain";
   }
 
-  /// The observable, or what it follows from, that a guessed column gives to this test.
+  /// The observable of this test, or the quantity that yields it, for a guessed column.
   std::string name_for(const ColumnGuess& column) const {
     const std::string word = word_of(column);
     if (word.empty() || (column.set_point && !prescribed(column))) return {};

@@ -18,7 +18,7 @@ namespace tunica::importing {
 using experiment::Json;
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-/// What the user says; empty = to be found or asked.
+/// The user's answers; empty = to be found or asked.
 struct Answers {
   std::vector<std::filesystem::path> files;
   std::filesystem::path table;         ///< of specimens

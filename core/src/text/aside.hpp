@@ -11,7 +11,7 @@
 
 namespace tunica::text {
 
-/// Prints on stderr, codes for the terminal too. Where it cannot be written, because a disk is full or nobody listens,
+/// Prints on stderr, codes for the terminal too. If it cannot be written, because a disk is full or the reader is gone,
 /// the words are lost and nothing else: work does not end for want of a progress line.
 inline void aside_raw(std::string_view words) { std::fwrite(words.data(), 1, words.size(), stderr); }
 
