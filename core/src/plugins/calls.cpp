@@ -23,8 +23,8 @@ Register& threads() {
   return only;
 }
 
-/// Gives the entry back when the thread ends. In the middle of a call it is not the thread that ends: a plugin has
-/// called exit(), which destroys what is local to the thread before anything else.
+/// Returns the entry when the thread ends. If it is destroyed during a call, the plugin has called exit(), which
+/// destroys thread-local objects first.
 struct Lease {
   ~Lease() {
     CallsOfThread*& mine = known_calls_of_this_thread;

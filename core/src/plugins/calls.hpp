@@ -54,7 +54,7 @@ inline void (*prepare_thread)() = nullptr;
 
 /// Whether this process is a copy of the one that does the work, which a plugin has forked.
 inline bool is_copy = false;
-/// Ends such a copy without a word: the work is not its own.
+/// Ends such a copy silently, because the work does not belong to it.
 [[noreturn]] void leave_copy();
 
 /// Marks a call while it lives.

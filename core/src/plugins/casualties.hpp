@@ -55,7 +55,7 @@ struct CasualtyList {
   /// count more. So do threads of its own, for no call can be left out.
   static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2, weight_of_memory = 3, weight_of_thread = 5;
 
-  /// Processes that ended for want of memory where no call was to blame alone; more than this are no accident.
+  /// Processes that ended for lack of memory without a single culprit; more than this are not an accident.
   static constexpr unsigned most_leaks = 20;
 
   std::atomic<unsigned> count = 0, leaks = 0;
@@ -78,7 +78,7 @@ inline void (*at_end_of_process)(const Casualty* entry) = nullptr;
 /// stays open, for the process ends. In signal handlers, too.
 inline void (*open_to_write)() = nullptr;
 
-/// The list of this process, or null where nobody takes up its work.
+/// The list of this process, or null if no other process will resume its work.
 inline CasualtyList* casualties = nullptr;
 
 /// Whether a call of this plugin has ended a process.

@@ -25,7 +25,7 @@ bool is_plain_identifier(std::string_view name) {
   });
 }
 
-/// By name, so that the order of loading does not matter.
+/// By name: the order of loading therefore does not matter.
 template <class Entries, class Predicate>
 const typename Entries::mapped_type* first_with(const Entries& entries, Predicate has_role) {
   for (const auto& [name, entry] : entries)
@@ -91,7 +91,7 @@ void check_when_made(ModelFactory& factory) {
   };
 }
 
-/// Checks what one plugin brings against what is there; the result merges without a chance of failure.
+/// Checks the registrations of one plugin against the existing ones; merging the result cannot fail.
 template <class Factory>
 Catalogue::Entries<Factory> checked_entries(std::vector<Factory>&& factories, const Catalogue::Entries<Factory>& taken,
                                             const std::string& plugin, std::string_view kind) {

@@ -25,7 +25,7 @@ class Catalogue {
   [[nodiscard]] const Entries<OptimizerFactory>& optimizers() const { return optimizers_; }
   [[nodiscard]] const Entries<MechanismFactory>& mechanisms() const { return mechanisms_; }
 
-  // Roles that a plugin's author gives. The core asks for them instead of names; nullptr: nobody has it.
+  // Roles that a plugin's author assigns. The core looks them up instead of names; nullptr: no plugin has the role.
   /// The model that discovery writes terms in, ModelFactory::writes_terms.
   [[nodiscard]] const Entry<ModelFactory>* term_model() const;
   /// The mechanism by which it adds a term to another model, MechanismFactory::writes_terms.

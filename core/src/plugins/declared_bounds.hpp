@@ -9,8 +9,8 @@
 
 namespace tunica::plugins {
 
-/// What is wrong with the default of an option: another kind than declared, none of the choices, or outside its own
-/// bounds. Empty = nothing. A host fills defaults in without a word, so that nobody else would notice.
+/// The fault in the default of an option: another kind than declared, none of the choices, or outside its bounds. Empty
+/// = no fault. The host fills in defaults silently, so no other check would find it.
 std::string flaw_of_default(const Option& option);
 
 /// The same of the bounds and the initial value of a parameter.

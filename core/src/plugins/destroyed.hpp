@@ -9,8 +9,8 @@
 
 namespace tunica::plugins {
 
-/// Takes away the object of a plugin, as a call that is watched. Where this has ended a process before, the plugin's
-/// objects are left where they are.
+/// Destroys the object of a plugin in a watched call. Where this has ended a process before, the plugin's objects are
+/// left where they are.
 template <class Object>
 void destroy(const std::string& plugin, std::unique_ptr<Object>& object) {
   if (!object) return;

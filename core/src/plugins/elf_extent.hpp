@@ -11,7 +11,7 @@ struct ElfExtent {
   bool elf = false;  ///< begins as an ELF file of this machine's word size does
   std::uint64_t found = 0, needed = 0;
 
-  /// A truncated library would be mapped all the same, and touching the missing pages ends the process (SIGBUS).
+  /// A truncated library would still be mapped, and access to the missing pages would kill the process (SIGBUS).
   [[nodiscard]] bool complete() const { return found >= needed; }
 };
 

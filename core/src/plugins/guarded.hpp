@@ -19,8 +19,8 @@
 #include "plugins/usual_arithmetic.hpp"
 #include "tunica/error.hpp"
 
-/// The boundary for calls into plugins: nothing a plugin throws gets past it as it is. Wrong input stays an
-/// InputError, anything else becomes a PluginFailure; both carry the plugin's name.
+/// The boundary for calls into plugins: it converts every exception of a plugin. Wrong input stays an InputError,
+/// anything else becomes a PluginFailure; both carry the plugin's name.
 namespace tunica::plugins {
 
 /// A plugin broke its promise: a bug to report to its author, not wrong input. Exit code 4.
@@ -40,13 +40,13 @@ class MemoryLack : public std::bad_alloc {
   std::runtime_error words_;  ///< copied without asking for memory
 };
 
-/// The host's own complaint, thrown through a plugin that called back into it: passed on as it is. Exit code 2.
+/// An exception of the host, thrown through a plugin that called back into it: passed on unchanged. Exit code 2.
 class __attribute__((visibility("default"))) HostFault : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// The key of a call that `input` tells from others of its name.
+/// The key of a call; `input` distinguishes it from others of the same name.
 inline std::uint64_t plain_key(const Call& call) {
   CallKey key(call.plugin, call.what);
   key.add(*static_cast<const std::uint64_t*>(call.input));
@@ -99,7 +99,7 @@ std::invoke_result_t<Body> guarded_object(const std::string& plugin, Body&& body
   return object;
 }
 
-/// The object as the plugin made it, for who wants to see what it does wrong: `tunica plugin check`.
+/// The object as the plugin made it, for `tunica plugin check`, which tests its faults directly.
 inline std::unique_ptr<Model> create_bare(const Catalogue::Entry<ModelFactory>& entry, const Options& options) {
   return guarded_object(entry.plugin, [&] { return entry.factory.create(options); });
 }
@@ -123,7 +123,7 @@ inline std::unique_ptr<Test> create(const Catalogue::Entry<TestFactory>& entry, 
   return test;
 }
 
-/// Takes a search away as a call that is watched.
+/// Destroys a search in a watched call.
 struct WatchedEnd {
   std::string plugin;
   void operator()(Optimizer* search) const {
@@ -137,7 +137,7 @@ inline std::unique_ptr<Optimizer, WatchedEnd> create(const Catalogue::Entry<Opti
   return {create_bare(entry, options).release(), WatchedEnd{entry.plugin}};
 }
 
-/// What the optimizer asks of its problems.
+/// The optimizer's requirements on its problems.
 inline Optimizer::Needs needs(const std::string& plugin, const Optimizer& optimizer) {
   return guarded(plugin, "needs", [&] { return optimizer.needs(); });
 }

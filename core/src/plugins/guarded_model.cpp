@@ -63,7 +63,7 @@ using TensorInput = Input<MaterialPoints, MaterialResponse>;
 using AxisInput = Input<AxisPoints, AxisResponse>;
 
 /// By the parameters and by what is wanted, not by the points: those may lie in scratch memory of the thread, which is
-/// gone when a plugin has called exit(). So a point that ends the process fails the whole evaluation at once.
+/// gone when a plugin has called exit(). A point that kills the process therefore fails the whole evaluation at once.
 std::uint64_t tensor_key(const Call& call) {
   const auto& [points, response] = *static_cast<const TensorInput*>(call.input);
   CallKey key(call.plugin, call.what);

@@ -17,9 +17,9 @@ struct Call;
 /// around each other it is the outermost.
 const Model*& last_failed_model();
 
-/// A model of a plugin that the host need not trust. What it throws, an output that it does not write or writes beyond,
-/// and a call that has ended a process before are all a `failed` status which names the plugin. Costs a call some 20
-/// ns: the record of calls, and marks in the outputs.
+/// A model of a plugin that the host need not trust. An exception, an output that is unwritten or overrun, and a call
+/// that has ended a process before are all a `failed` status which names the plugin. Costs a call some 20 ns: the
+/// record of calls, and marks in the outputs.
 class GuardedModel final : public Model, public MaxwellModel {
  public:
   GuardedModel(std::unique_ptr<Model> model, std::string plugin);

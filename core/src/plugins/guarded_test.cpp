@@ -55,7 +55,7 @@ Status GuardedTest::made(const char* what, const TestInput& input, const Body& b
     } catch (const HostFault&) {
       throw;
     } catch (const std::exception& problem) {
-      // Memory that lacked for a moment says nothing of the point.
+      // A temporary lack of memory is no property of the point.
       if (again && dynamic_cast<const std::bad_alloc*>(&problem) != nullptr) continue;
       return Status::failed(fmt::format("plugin '{}' threw: {}", plugin_, problem.what()));
     } catch (...) {
@@ -71,7 +71,7 @@ Status GuardedTest::predict(const TestInput& input, const TestOutput& output) co
   if (size > 0) mark_ends(output.jacobian, size);
   Status status = made("predict", input, [&] { return test_->predict(input, output); });
   if (!status.ok() || size == 0) return status;
-  // A mark is no number: where all are finite none is left.
+  // A mark is not a finite number: if all values are finite, no mark is left.
   const bool values = detail::all_finite(output.values.data(), size) ||
                       std::none_of(output.values.begin(), output.values.end(), is_unwritten);
   if (values && !has_marked_ends(output.jacobian, size)) return status;

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-/// What a process does when a plugin takes it down: it says which call it was, for the process that follows.
+/// When a plugin kills its process, this records the fatal call for the next process.
 namespace tunica::plugins {
 
 /// From here on, signals that end the process (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) and a plugin's exit() are

@@ -48,8 +48,8 @@ const boost::dll::shared_library& map_for_good(const fs::path& file) {
   return mapped.emplace_back(std::move(library));
 }
 
-/// Runs a piece of the plugin and turns whatever it throws into LoadError. What lacked memory is asked once more:
-/// without the plugin the work would go on to another result.
+/// Runs code of the plugin and turns any exception into LoadError. After a lack of memory it tries once more: without
+/// the plugin the work would go on to another result.
 template <class Call>
 auto shielded(std::string_view doing, const Call& call, bool again = true) {
   try {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-/// Marks in the outputs of a plugin: where one is found after a call, nobody has written.
+/// Marks in the outputs of a plugin: a mark that remains after a call shows an unwritten value.
 namespace tunica::plugins {
 
 /// A NaN that no arithmetic makes.

@@ -62,7 +62,7 @@ class UsualArithmetic {
 #endif
 };
 
-/// What is said of a plugin that has left another mode behind.
+/// The message about a plugin that left another floating-point mode behind.
 inline constexpr const char* changed_arithmetic =
     "left another mode of floating-point arithmetic behind (rounding, precision, small numbers or traps); expected the "
     "mode that it was called with. Restore it before the call returns";
