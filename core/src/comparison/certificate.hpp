@@ -14,7 +14,7 @@
 
 namespace tunica::comparison {
 
-/// What the evidence says of the best point of a run, the gravest first.
+/// The verdicts on the best point of a run, the gravest first.
 enum class CertificateVerdict {
   not_checked,        ///< no fresh process was asked, or it gave no answer
   failed,             ///< the point cannot be evaluated in a fresh process
@@ -39,9 +39,9 @@ inline constexpr text::Codes<CertificateVerdict, 9> certificate_codes{{
     {CertificateVerdict::confirmed, "confirmed"},
 }};
 
-/// What speaks for the best point of a run being the optimum, and what against it.
+/// The evidence for and against the best point of a run being the optimum.
 struct Certificate {
-  /// What a process that knows only input.json and result.json found.
+  /// The findings of a process that knows only input.json and result.json.
   struct Fresh {
     search::Neighbourhood around;
     double difference = 0;   ///< its objective minus the recorded one
@@ -76,7 +76,7 @@ void add_agreement(const assembly::Assembly& assembly, const execution::RunResul
 /// Fills in verdict and sentence from the rest.
 void judge(Certificate& certificate);
 
-/// Where the point is not what the run says it is: failed, objective_differs or not_an_optimum.
+/// If the point contradicts the run: failed, objective_differs or not_an_optimum.
 std::optional<execution::Warning> certificate_warning(const std::string& label, const Certificate& certificate);
 
 }  // namespace tunica::comparison

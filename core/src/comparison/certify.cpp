@@ -102,7 +102,7 @@ void refine(const assembly::Assembly& assembly, const plugins::Catalogue& catalo
   around.lowest = {made.objective, 0, "a local search", std::move(made.free)};
 }
 
-/// Why the intervals of a run mean nothing: they surround a point that is not the optimum. Empty where they do.
+/// Why the intervals of a run are meaningless: they surround a point that is not the optimum. Empty if they are valid.
 std::string doubt_of_intervals(const RunSummary& run) {
   constexpr double moved = 0.5;  // half widths
   const auto& certificate = run.certificate;

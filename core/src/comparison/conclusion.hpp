@@ -11,7 +11,7 @@ namespace tunica::comparison {
 
 struct RunSummary;
 
-/// What a run came to, by the evidence and not by the optimiser's word alone.
+/// The outcome of a run, by evidence and not only by the optimiser's claim.
 enum class Ending {
   no_result,      ///< nothing could be evaluated
   infeasible,     ///< the best point breaks a constraint

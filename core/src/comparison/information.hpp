@@ -9,7 +9,7 @@
 
 namespace tunica::comparison {
 
-/// What a model costs in parameters against what it gains in fit.
+/// The cost of a model in parameters against its gain in fit.
 struct Information {
   enum class Noise { stated, estimated, mixed };
   std::optional<double> aicc;  ///< none when there are too few rows for the correction

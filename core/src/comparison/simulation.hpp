@@ -12,7 +12,7 @@
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
 
-/// What a model predicts for the tests of an experiment, in the form of the data.
+/// The predictions of a model for the tests of an experiment, in the form of the data.
 namespace tunica::comparison {
 
 struct SimulationRequest {

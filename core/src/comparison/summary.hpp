@@ -227,7 +227,7 @@ struct Summary {
   std::vector<std::string> identifiability;
 };
 
-/// Told what is being done, as "profiles of gho/lm": work after the searches can be long, too.
+/// Called with the current work, such as "profiles of gho/lm", because work after the searches can also be long.
 using Told = std::function<void(const std::string& what)>;
 
 /// Evaluates the best points again, ranks, counts successes, and says what should not be overlooked. `refusals`: why

@@ -83,7 +83,7 @@ void warn_of_large_noise(const RunSummary& run, Warnings& warnings) {
                       {worst.test, worst.channel}});
 }
 
-/// Many rows find a misfit that no eye sees; it says how small it is, and what it may do to parameters all the same.
+/// Many rows detect a misfit that no eye sees. The warning states its size and its possible effect on parameters.
 void warn_of_small_misfit(const execution::Plan& plan, const std::vector<RunSummary>& runs, std::size_t own,
                           Warnings& warnings) {
   const RunSummary& run = runs[own];
@@ -109,7 +109,7 @@ void warn_of_small_misfit(const execution::Plan& plan, const std::vector<RunSumm
   }
 }
 
-/// A misfit that no measurement has says that data, units or noise are not what they are taken for.
+/// An impossibly large misfit means that the data, their units or their noise are wrong.
 void warn_of_scale(const RunSummary& run, Warnings& warnings) {
   constexpr double most = 1000, least = 1e-9;  // mean deviation in units of the noise
   constexpr double same = 1e-9;                // of the largest value: equal but for rounding

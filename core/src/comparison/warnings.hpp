@@ -8,9 +8,9 @@
 
 namespace tunica::comparison {
 
-/// What nobody should overlook in these runs, the gravest first: runs without a result, broken constraints, noise that
-/// the misfit contradicts, parameters at their bounds, failed evaluations, stops that gave up determinism, runs that
-/// cannot be compared.
+/// The warnings about these runs, the gravest first: runs without a result, broken constraints, noise that the misfit
+/// contradicts, parameters at their bounds, failed evaluations, stops that gave up determinism, runs that cannot be
+/// compared.
 std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs,
                                             const std::vector<Ranked>& ranking);
 

@@ -49,7 +49,7 @@ void expand(const Cohort& cohort, const std::vector<Prior>& priors, Alternation&
   }
 }
 
-/// The weakest direction of all information together, in scales: what no specimen fixes no cohort can.
+/// The weakest direction of the total information, in scales: a cohort cannot determine what no specimen determines.
 void check_information(const Cohort& cohort, const std::vector<Expansion>& expansions) {
   const auto p = static_cast<Eigen::Index>(cohort.parameters.size());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);

@@ -5,7 +5,7 @@
 
 namespace tunica::population {
 
-/// What is fitted to a cohort.
+/// The estimates from a cohort.
 struct Form {
   Design design;
   Shape within = Shape::diagonal;

@@ -7,7 +7,7 @@
 
 namespace tunica::population {
 
-/// A column of the design: 1 for the mean of the reference, or 1 where a specimen has a level of a factor.
+/// A column of the design: ones for the mean of the reference, or 1 if a specimen has a level of a factor.
 struct Column {
   std::optional<std::size_t> factor;  ///< none: the mean of the reference
   std::size_t level = 0;

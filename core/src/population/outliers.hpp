@@ -5,7 +5,7 @@
 
 namespace tunica::population {
 
-/// How far a specimen stands from what the others predict.
+/// The distance of a specimen from the prediction of the others.
 struct Standing {
   std::size_t specimen = 0;  ///< in the caller's order
   double distance = 0;       ///< Mahalanobis, of what its own data say of ξ against the prediction of the others

@@ -23,7 +23,7 @@ struct Marginal {
   Convergence convergence;
 };
 
-/// Draws from the posterior of a run (Question in target.hpp), and what they say.
+/// Draws from the posterior of a run (Question in target.hpp), and their statistics.
 struct Posterior {
   Status status;                ///< failed: no draws
   bool complete = false;        ///< false: interrupted, or time was over; then there are no chains

@@ -13,7 +13,7 @@
 
 namespace tunica::posterior {
 
-/// What the posterior of a run is made of; nothing in it changes while draws are made.
+/// The ingredients of the posterior of a run. Nothing in it changes while draws are made.
 ///
 /// The likelihood is that of the intervals (whitening.hpp): r are the whitened residuals of the N fitted rows, σ that
 /// of the best point. Where all noise is stated and χ² does not contradict it, ln L = −½ ‖r‖². Else one common factor s

@@ -22,7 +22,7 @@ struct FreeFaceVerdict {
   std::vector<PathReach> followed;  ///< one a path with free faces
 };
 
-/// What is said of a material that changes its volume: no condition has a constraint on J.
+/// The verdict on a material that changes its volume: no condition constrains J.
 struct CompressibleVerdict {
   EllipticityVerdict ellipticity;
   FreeFaceVerdict free_faces;

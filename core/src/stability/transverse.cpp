@@ -171,13 +171,13 @@ namespace {
 
 constexpr double edge = 1 + Problem::constraint_tolerance;  // c ≤ tolerance counts as stable, as in the constraint
 
-/// What is found on the way from rest to one side.
+/// The results on the path from rest to one side.
 struct Course {
   std::optional<double> first_unstable, stable_again;
   double reached = 1, worst = -std::numeric_limits<double>::infinity();
 };
 
-/// NaN where there is no answer.
+/// NaN without a solution.
 double slope_at(const Model& model, std::span<const double> parameters, std::size_t axis, double stretch) {
   double slope = std::numeric_limits<double>::quiet_NaN();
   return FreePath(model, axis, {stretch}).slopes(parameters, {&slope, 1}, {}).ok()

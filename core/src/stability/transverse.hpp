@@ -65,7 +65,7 @@ class FreePath {
   free_strip::Start start_;
 };
 
-/// What the criterion (h = 1) says of one direction. "Judged" are the stretches that were measured or asked for.
+/// The result of the criterion (h = 1) in one direction. "Judged" are the measured or requested stretches.
 struct TransverseVerdict {
   std::size_t axis = 0;
   double judged_from = 1, judged_to = 1;  ///< least and largest judged stretch; 1 = none on that side of rest

@@ -12,7 +12,7 @@
 
 namespace tunica::uncertainty {
 
-/// What the data say about one free parameter at the best point.
+/// The information of the data about one free parameter at the best point.
 struct ParameterInterval {
   std::string name, unit;
   double value = 0;

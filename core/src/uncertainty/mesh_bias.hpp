@@ -10,7 +10,7 @@
 
 namespace tunica::uncertainty {
 
-/// What the discretisation of finite elements does to fitted parameters.
+/// The bias of fitted parameters by the discretisation of finite elements.
 struct MeshBias {
   std::vector<std::string> tests;    ///< those that were simulated on a finer mesh; empty: none can
   std::vector<double> of_parameter;  ///< value less what the finer mesh would give, by free parameter; NaN: not fixed

@@ -62,7 +62,7 @@ class RefitProblem final : public Problem {
     if (status.ok()) reduce(by_free_, jacobian);
     return status;
   }
-  /// One after the other: refits themselves run side by side.
+  /// Sequential, because the refits themselves run in parallel.
   std::size_t for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override {
     std::size_t k = 0;
     for (; k < count && !should_stop(); ++k) body(k, *this);

@@ -9,7 +9,7 @@
 
 namespace tunica::uncertainty {
 
-/// What would fix a direction that the tests of a run leave free, where the model does not say it itself.
+/// The experiment that would determine a direction left free by the tests of a run, if the model does not name one.
 ///
 /// Of some tests with prescribed deformation in the plane of the wall – a sheet stretched equally both ways, along one
 /// axis at fixed length of the other, and at 45° to the axes – up to the largest stretch of the run, the one whose

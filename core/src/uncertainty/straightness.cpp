@@ -146,7 +146,7 @@ double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> hel
     const double violation = violation_, penalty = penalty_;
     const Vector step = this->step(x, moving);
     if (step.size() == 0) break;
-    // What is to be gained is known before it is simulated, where no constraint is broken.
+    // If no constraint is violated, the gain is known before the simulation.
     const double ahead = (r + J(Eigen::all, moving) * step).squaredNorm();
     if (violation == 0 && (here - ahead < enough || (ahead > settled.low && here < settled.high))) break;
     here += (penalty_ - penalty) * violation;
