@@ -27,11 +27,11 @@ struct Contender {
   Belief belief = Belief::plausible;
   std::size_t parameters = 1;  ///< that it adds
 
-  /// One test with parameters of its own.
+  /// One test with its own parameters.
   [[nodiscard]] bool is_state() const { return id == "another_state"; }
 };
 
-/// How large the misfit of the base is, what takes it, and what is left.
+/// The misfit of the base, the effects that explain it, and the rest.
 struct Budget {
   Tolerance tolerance;
   Size base;
@@ -41,7 +41,7 @@ struct Budget {
   double unlisted_probability = 0;    ///< of "no listed cause, only a smooth misfit"; of meaning with contenders
   bool rough = false;                 ///< what is left is rougher than an unlisted misfit may be: no name is given
   std::optional<Contender> lead;      ///< with_verdict_of() sets it where one cause leads
-  /// What takes most of the misfit if the file does not say what is so; share 0: nothing.
+  /// The correction of the file that explains most of the misfit; share 0: none.
   struct {
     std::string sentence, mend;
     double share = 0;

@@ -46,8 +46,8 @@ double enough(const Budget& budget, const Contender& top) {
   return sure_enough * (incredible < 0.5 ? 1 - incredible : 1);
 }
 
-/// Whether a cause leaves next to nothing that anybody would care about, and some cause is there. Then no evidence is
-/// asked: what takes far less needs an unlisted misfit several times as large as is tolerated.
+/// Whether a cause leaves almost no relevant misfit, and some cause is present. Then no evidence is asked: what takes
+/// far less needs an unlisted misfit several times as large as is tolerated.
 bool is_enough_alone(const Budget& budget, const Contender& top) {
   constexpr double nearly_all = 0.95, half_again = 1.5;
   return budget.base.rms > budget.tolerance.share && top.share >= nearly_all &&

@@ -25,8 +25,8 @@ DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const dia
                              const plugins::Catalogue& catalogue, bool discovers,
                              const diagnosis::Progress& progress = {});
 
-/// Everything that a diagnosis leaves behind beside its page: input.json, extended.json where there is an extension,
-/// the tables, and the verdict last, result.json.
+/// All files of a diagnosis except its page: input.json, extended.json if there is an extension, the tables, and the
+/// verdict last, result.json.
 void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndSearch& found,
                      const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
 

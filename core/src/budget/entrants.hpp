@@ -15,7 +15,7 @@ namespace tunica::budget {
 using diagnosis::MisfitSize;
 using diagnosis::Size;
 
-/// What a search over mechanisms and terms works with.
+/// The inputs of a search over mechanisms and terms.
 struct Field {
   const diagnosis::Inquiry& inquiry;
   const diagnosis::Analysis& analysis;

@@ -7,8 +7,8 @@
 
 namespace tunica::discovery {
 
-/// What no energy can explain: rows at the same strain, measured on the way there and on the way back or in tests that
-/// are alike in everything an energy sees, that differ by more than noise.
+/// Differences that no energy can explain: rows at the same strain, measured during loading and unloading or in tests
+/// that are alike in everything an energy sees, that differ by more than noise.
 struct PathDependence {
   double chi2 = 0;        ///< of the residuals: what such differences take
   double share = 0;       ///< of the misfit beyond noise

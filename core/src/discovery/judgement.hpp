@@ -55,7 +55,7 @@ struct WeighedSet {
   double chi2 = 0;
 };
 
-/// What a verdict rests on, for one specimen or for several together.
+/// The basis of a verdict, for one specimen or for several.
 struct Findings {
   bool from_nothing = false;
   std::vector<WeighedSet> sets = {};  ///< likeliest first; the first one is offered

@@ -9,7 +9,7 @@
 #include "diagnosis/detection/analysis.hpp"
 #include "discovery/set_fit.hpp"
 
-/// What a search in one specimen and one in several have in common.
+/// The common part of a search in one specimen and in several.
 namespace tunica::discovery {
 
 /// Throws InputError where no model is named, or no plugin can write terms.

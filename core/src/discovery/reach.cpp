@@ -21,7 +21,7 @@ struct Record {
   States converged, all;
 };
 
-/// A model that writes down what it is asked about, and answers as the model in it.
+/// A model that records the points of its calls and returns the results of the wrapped model.
 class RecordingModel final : public Model {
  public:
   RecordingModel(std::unique_ptr<Model> model, std::shared_ptr<Record> record)

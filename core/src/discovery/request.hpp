@@ -10,7 +10,7 @@
 
 namespace tunica::discovery {
 
-/// What is asked: the "discovery" block of the experiment file and the command line.
+/// The request: the "discovery" block of the experiment file and the command line.
 struct Request {
   std::string model;                    ///< name of an entry of "models": the base
   bool from_nothing = false;            ///< the terms make up the whole energy
@@ -19,7 +19,7 @@ struct Request {
   std::size_t most_terms = 0;           ///< 0 = three beside a base, four from nothing
   std::size_t most_parameters = 0;      ///< that the terms may have together; 0 = as many as it takes
   double alpha = 0.05;                  ///< false alarms that are accepted
-  /// What is not worth caring about, as that of a diagnosis.
+  /// The tolerated misfit, as in a diagnosis.
   std::vector<std::pair<std::string, std::string>> tolerance = {};
   bool quick = false;  ///< linear bootstrap of the alarm only
   std::uint64_t seed = 1;

@@ -43,7 +43,7 @@ std::size_t parameters_of(const std::vector<KindPointer>& kinds) {
 
 bool likelier(const CommonFit& a, const CommonFit& b) { return a.log_evidence > b.log_evidence; }
 
-/// What was tried, and what came of it.
+/// The sets that were tried, and their results.
 class Ledger {
  public:
   Ledger(const CommonFitter& fitter, const Search& request) : fitter_(fitter), request_(request) {

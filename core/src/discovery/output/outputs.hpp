@@ -17,7 +17,7 @@ nlohmann::ordered_json discovery_json(const Discovery& discovery);
 std::string result_document(const Discovery& discovery, const experiment::Experiment& experiment,
                             const plugins::Catalogue& catalogue);
 
-/// What a person reads on the terminal.
+/// The text on the terminal.
 text::StyledText summary(const Discovery& discovery);
 /// The part of it that a diagnosis adds to its own words: terms, how well they predict, what to measure next.
 text::StyledText term_summary(const Discovery& discovery);

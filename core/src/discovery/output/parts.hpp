@@ -10,7 +10,7 @@
 #include "discovery/judgement.hpp"
 #include "text/styled.hpp"
 
-/// What the outputs of one specimen and of several have in common.
+/// The common parts of the outputs of one specimen and of several.
 namespace tunica::discovery {
 
 /// {"invariant": …, "family": …, "law": …}
