@@ -10,7 +10,7 @@
 namespace tunica::abscissa_errors {
 namespace {
 
-/// The abscissae of a prediction, one of them corrected; what the input refers to lives here.
+/// The abscissae of a prediction, with one corrected. It owns the data that the input refers to.
 struct Corrected {
   std::vector<double> values;
   std::vector<std::span<const double>> columns;

@@ -56,7 +56,7 @@ MechanismFactory reading(MechanismFactory mechanism, std::vector<std::string> ch
   return mechanism;
 }
 
-/// The shift of one channel, of which `share` says how much each row has.
+/// The shift of one channel; `share` is the fraction of it in each row.
 template <class Share>
 MechanismFactory partly_shifted(MechanismFactory mechanism, Share share) {
   mechanism.wrap_test = [id = mechanism.id, amplitude = mechanism.parameters.front(), share](
@@ -70,13 +70,13 @@ MechanismFactory partly_shifted(MechanismFactory mechanism, Share share) {
   return mechanism;
 }
 
-/// An offset in the unit of its channel is plausible up to a fifth of what the channel spans.
+/// An offset in the unit of its channel is plausible up to a fifth of the channel's range.
 MechanismFactory by_range(MechanismFactory mechanism) {
   mechanism.plausible_effect = 0.2;
   return mechanism;
 }
 
-/// What a known weight on the load cell, or a reading without specimen, settles.
+/// The question that a known weight on the load cell, or a reading without specimen, settles.
 MechanismFactory settled(MechanismFactory mechanism,
                          std::function<std::string(const MechanismFactory::Misrecorded&)> words) {
   mechanism.calibration = std::move(words);

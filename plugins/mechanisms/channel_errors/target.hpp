@@ -7,7 +7,7 @@
 #include "misread.hpp"
 #include "tunica/options.hpp"
 
-/// What the options `channel` and `rows` point at. Messages begin with the mechanism's id.
+/// The target of the options `channel` and `rows`. Messages begin with the mechanism's id.
 namespace tunica::channel_errors {
 
 /// Those of `wanted` that the test's data have; throws InputError where they have none of them.
@@ -17,7 +17,7 @@ std::vector<std::size_t> channels_named(const std::string& id, const std::vector
 /// The channel of the option, or the only one where it is empty; throws InputError where it is neither.
 std::size_t channel_chosen(const std::string& id, const Options& options, const TestRows& rows);
 
-/// 1 on the rows of the option, 0 elsewhere; throws InputError where it is no row range or has no row in it.
+/// 1 on the rows of the option, 0 elsewhere; throws InputError if it is not a row range or contains no row.
 std::vector<double> rows_chosen(const std::string& id, const Options& options, std::size_t count);
 
 /// Part of the recording that is over at each row: of its time where the data have it, else of the number of rows;

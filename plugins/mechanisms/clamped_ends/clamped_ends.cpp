@@ -21,7 +21,7 @@
 namespace tunica::clamped_ends {
 namespace {
 
-/// Where a channel stands and what it is made of: data = difference · λ^power.
+/// The position of a channel and its formula: data = difference · λ^power.
 struct Target {
   std::size_t channel;
   ClampedStrip::Channel of;

@@ -66,7 +66,7 @@ plane::Gauge ClampedStrip::gauge(const plane::Body& body, std::size_t axis, doub
   return gauge;
 }
 
-/// Whether the material bears no shear where it is stretched along x and y, so that a quarter stands for the whole.
+/// Whether stretches along x and y cause no shear in the material. A quarter then represents the whole strip.
 bool ClampedStrip::is_symmetric(const TestInput& input, bool compressible) const {
   if (angled_) return false;
   const std::size_t sides = 3, n = sides * places_.size();

@@ -25,7 +25,7 @@ using Tensor = VolumeEnergy::Tensor;
 constexpr double stiffest = 1e8;
 constexpr double least = 1e-12;  ///< 1/kPa
 
-/// u with u_θ and u_θθ at θ = ln J; u_θθ = 1 at rest, so that κ is the bulk modulus there.
+/// u with u_θ and u_θθ at θ = ln J; u_θθ = 1 at rest, so κ is the bulk modulus there.
 struct VolumeLaw {
   double u, by_theta, by_theta_twice;
 };
@@ -148,7 +148,8 @@ MechanismFactory factory() {
   mechanism.null = 0;
   mechanism.side = MechanismFactory::Side::positive;
   mechanism.plausible_max = 10;
-  // The linearised effect of a foam, whose bulk modulus is a part of its shear modulus, is many times what is measured.
+  // The bulk modulus of a foam is a fraction of its shear modulus, so the linearised effect far exceeds the measured
+  // one.
   mechanism.plausible_effect = 20;
   mechanism.look_alikes = {"force_scale_error", "force_offset"};
   mechanism.isolated_by = "confined compression beside free compression, or the volume measured in the same test";

@@ -30,7 +30,7 @@ struct Channels {
   std::vector<bool> stress;
 };
 
-/// What the largest stretch so far makes of one row.
+/// The effect of the largest stretch so far on one row.
 struct Row {
   double rest = 1, grown = 0;  ///< p and Λ − 1
   bool taut = true;            ///< longer than at rest

@@ -77,7 +77,7 @@ class ViscoelasticModel final : public HistoryModel, public MaxwellModel {
     const bool branch = g != 0 && (!stress.empty() || !tangent.empty());
     if (!branch && call.new_state.empty()) return base().evaluate(points, call.base_response);
 
-    // A branch beside others relaxes from what they do.
+    // A branch beside others relaxes from the same elastic response.
     std::vector<double> elastic_stress, elastic_tangent;
     if (beside_ != nullptr) {
       elastic_stress.resize(6 * n);

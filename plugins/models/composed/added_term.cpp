@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The options as the one entry of a list of terms. A default says nothing where it does not belong.
+/// The options as the only entry of a list of terms. A default is ignored if it does not apply.
 std::string list_of(const Options& options) {
   Json term = {{"name", "term"}, {"invariant", options.text("invariant")}};
   if (!options.text("invariant").starts_with("stretches")) term["law"] = options.text("law");

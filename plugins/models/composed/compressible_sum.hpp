@@ -18,7 +18,7 @@ namespace tunica::composed {
 ///
 ///     W = W₁(C) − a ln J + W₂(C̄) + Σ_k U_k(J),   C̄ = J^(−2/3) C,   a = S₁(1), so that nothing is stressed at rest.
 ///
-/// It has no parts, so that mechanisms cannot change it. Threads and failure: as Model.
+/// It has no parts, so mechanisms cannot change it. Threads and failure: as Model.
 class CompressibleSum final : public Model {
  public:
   /// U(J), a function of x = J − 1, and where its parameters stand in the description.

@@ -11,7 +11,7 @@ namespace tunica::composed {
 
 namespace {
 
-/// The squared stretch along the family, or what stands for it where fibres scatter.
+/// The squared stretch along the family, or its generalised form if fibres are dispersed.
 std::string fibre_words(const Term& term) {
   std::string along = term.family == Family::axial ? "C_zz" : term.family == Family::circumferential ? "C_tt" : "I4";
   if (term.isochoric) along.insert(along.find('_') == std::string::npos ? along.size() : 1, "bar");

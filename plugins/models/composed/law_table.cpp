@@ -87,7 +87,7 @@ std::vector<Law> closed_laws() {
        "3 $mu/2 ln(1 + x/3)"}};
 }
 
-/// The curve's own parameters are linear, so that each may be nothing.
+/// The curve's parameters enter linearly, so each may be 0.
 Law spline(const std::vector<double>& knots, bool has_slope) {
   Law law{"spline", {}, {}, !has_slope, false, false, "a curve over x"};
   const auto height = [](std::string name, double initial, std::string doc) {

@@ -129,7 +129,7 @@ Law law_of(const Entry& entry, const Term& term) {
   return law(name, name == "spline" ? entry.knots() : std::vector<double>{}, term.isotropic());
 }
 
-/// What the invariant asks of the law, and what keys go with which invariant.
+/// The requirements of the invariant on the law, and the keys of each invariant.
 void check(const Entry& entry, const Term& term) {
   const auto goes_with = [&entry](const char* key, bool fits, const char* words) {
     if (entry.has(key) && !fits)

@@ -8,7 +8,7 @@
 
 namespace tunica::composed {
 
-/// What a term is a function of. docs/plugins/composed.md has the formulas.
+/// The argument of a term. docs/plugins/composed.md has the formulas.
 enum class Quantity {
   first_invariant,   ///< I1 − 3
   second_invariant,  ///< I2 − 3
@@ -46,7 +46,7 @@ struct Term {
     return quantity == Quantity::coupling || (has_family() && (family == Family::diagonal || family == Family::single));
   }
   [[nodiscard]] bool has_family() const { return quantity == Quantity::fibre || quantity == Quantity::across; }
-  /// Whether it stands for two families, at ±θ.
+  /// Whether it represents two families, at ±θ.
   [[nodiscard]] bool is_pair() const { return has_family() && family == Family::diagonal; }
 };
 

@@ -19,7 +19,7 @@ class TermPart final : public EnergyPart {
   TermPart(const Term& term, std::vector<std::size_t> law_parameters, std::vector<std::size_t> invariant_parameters)
       : quantity_(term.quantity), family_(term.family), dispersion_(term.dispersion), respond_(term.law.respond) {
     description_.name = term.name;
-    // A coupling is no family that could be dispersed or taken up late.
+    // A coupling is not a family, so it cannot be dispersed or recruited late.
     description_.role = quantity_ == Quantity::fibre ? Role::fibre : Role::matrix;
     description_.active = term.active;
     description_.mirrored = term.is_pair();

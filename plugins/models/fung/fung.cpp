@@ -170,7 +170,7 @@ class Fung final : public Model {
  private:
   static double weight(Eigen::Index component) { return component < 3 ? 1 : 0.5; }
 
-  /// What the parameters say.
+  /// The values of the parameters.
   struct Material {
     double c;
     Eigen::Matrix<double, strains, strains> K = Eigen::Matrix<double, strains, strains>::Zero();

@@ -11,7 +11,7 @@
 namespace tunica::es {
 
 /// What selection sees of an individual: feasible before infeasible before failed, infeasible ones by their violation
-/// (Deb 2000), then the objective, then the order of evaluation, so that ties fall the same way everywhere. Under a
+/// (Deb 2000), then the objective, then the order of evaluation, which breaks ties the same way everywhere. Under a
 /// constant penalty all violations are 0 here.
 struct Fitness {
   Status::Kind kind = Status::Kind::failed;

@@ -35,7 +35,7 @@ End Search::run(bool from_start) {
     if (variation_.cumulative() && !best.empty()) variation_.follow(offspring_, best);
     select(best);
     if (!variation_.cumulative()) variation_.learn(parents_, parent_count_, first_mutant_);
-    // Progress is measured from where it was last seen, so that a slow descent adds up.
+    // Progress is measured from the last significant improvement, so a slow descent adds up.
     const double enough = settings_.tolerance * std::abs(reference.objective);
     if (best_->kind < reference.kind || best_->violation < reference.violation * (1 - settings_.tolerance) ||
         best_->objective < reference.objective - enough) {

@@ -145,7 +145,7 @@ double Bridge::value_of_failure(const Status& status) {
   return worst_ + std::abs(worst_) + 1;
 }
 
-/// Progress is measured from where it was last seen, so that a slow descent adds up.
+/// Progress is measured from the last significant improvement, so a slow descent adds up.
 void Bridge::note_progress() {
   const double enough = rules_.tolerance * std::abs(progress_from_);
   const bool nearer = best_.violation < violation_from_ * (1 - rules_.tolerance);
@@ -159,7 +159,7 @@ void Bridge::note_progress() {
   }
 }
 
-/// Tightened by half the tolerance, so that a converged search ends feasible.
+/// Tightened by half the tolerance, so a converged search ends at a feasible point.
 void Bridge::constraints_at(const double* x, double* values, double* jacobian) {
   move_to(x);
   const std::size_t m = problem_.constraint_count();

@@ -274,7 +274,7 @@ Search search_globally(Problem& problem, std::span<const double> start, std::uin
       return search_globally(lagrangian, from, seed, settings);
     });
   }
-  // NLopt's generator is one a thread. Evaluations are serial here, so that no other search runs on it in between.
+  // NLopt has one generator per thread. Evaluations are serial here, so no other search uses it in between.
   nlopt::srand(static_cast<unsigned long>(seed));
   Bridge bridge(problem, {.infeasible = algorithm == Algorithm::crs2_lm ? Infeasible::ranked : Infeasible::as_is,
                           .failed = failed(algorithm),

@@ -50,7 +50,7 @@ double Search::note(std::span<const double> x, const Status& status, double obje
   if (fitness < best_.fitness) {
     best_.fitness = fitness;
     best_.x.assign(x.begin(), x.end());
-    // Progress is measured from where it was last seen, so that a slow descent adds up.
+    // Progress is measured from the last significant improvement, so a slow descent adds up.
     if (fitness < progress_from_ - tolerance_ * std::abs(progress_from_)) {
       progress_from_ = fitness;
       progress_at_ = evaluated_;

@@ -119,7 +119,7 @@ class Biaxial final : public Test {
     return {r.c[i] * r.stress[i] - normal, r.c[n + i] * r.stress[n + i] - normal};
   }
 
-  /// The first row where σ_t + σ_z is no number, or their number.
+  /// The first row where σ_t + σ_z is not finite, or the number of rows.
   std::size_t first_undefined(const Response& r) const {
     const std::size_t n = rows_.count;
     const auto is_undefined = [this, &r](std::size_t i) {

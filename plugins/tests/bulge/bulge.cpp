@@ -32,7 +32,7 @@ bool changes(const TestInput& input) {
   return input.model.describe().compressible && !input.model.keeps_volume(input.model_parameters);
 }
 
-/// Whether the membrane answers alike in all directions of its plane, so that it bulges as a solid of revolution.
+/// Whether the membrane is isotropic in its plane and therefore bulges as a solid of revolution.
 bool is_even_in_plane(const TestInput& input, plane::Faces faces) {
   constexpr std::array<std::array<double, 2>, 4> states{{{1.1, 1.0}, {1.3, 1.1}, {1.1, 1.3}, {1.6, 1.4}}};
   constexpr double different = 1e-8;

@@ -54,7 +54,7 @@ class Inflation {
   /// Prepares the derivatives below. False where the equilibrium is not isolated.
   bool linearise(bool by_parameters);
 
-  /// What is read off: q = p a/H, f(0) and g'(0); or their derivatives.
+  /// The observed quantities: q = p a/H, f(0) and g'(0); or their derivatives.
   struct Reading {
     double load, apex, bend;
   };

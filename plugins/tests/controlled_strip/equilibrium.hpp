@@ -6,7 +6,7 @@
 
 namespace tunica::controlled_strip {
 
-/// What is prescribed along the strip: its stretch, or a stress in one of three measures.
+/// The prescribed quantity along the strip: its stretch, or a stress in one of three measures.
 enum class Control { stretch, cauchy, nominal, second };
 
 /// σ is divided by λ1 to this power to give the prescribed stress.

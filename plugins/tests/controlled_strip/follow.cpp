@@ -94,7 +94,7 @@ class Walk {
   }
 
  private:
-  /// What the quantity is now, with its derivatives by the parameters.
+  /// The present value of the quantity, with its derivatives by the parameters.
   void start_of_segment(Control control) {
     const bool stretch = control == Control::stretch;
     const Reading now = read(stretch ? Channel::stretch : Channel::stress, control, stress_, l_, felt());

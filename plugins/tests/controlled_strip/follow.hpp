@@ -23,7 +23,7 @@ struct LoadStep {
   std::size_t row = none;  ///< the row of the data that it is
 };
 
-/// The strip, its steps and what is asked of it.
+/// The strip, its steps and the requested outputs.
 struct Strip {
   std::size_t loaded = 0;
   Control measure = Control::cauchy;  ///< of the stress channel

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t most_cycles = 10000;
 
-/// What a segment may prescribe, and how it becomes a stretch or a stress: value · factor + offset.
+/// The quantities that a segment may prescribe, and their conversion to a stretch or a stress: value · factor + offset.
 struct Quantity {
   const char *name, *unit;
   Control control;

@@ -16,7 +16,7 @@ struct Slope {
   double value = 0, by_l = 0, by_y = 0;
 };
 
-/// One point of an incompressible strip on its way through time: what it bears at a trial state, and its past.
+/// One point of an incompressible strip over time: its response at a trial state, and its history.
 ///
 ///     c = (e^{2l}, e^y, e^{−2l−y}),   σ = 2 (c1 g1 − c3 g3),   r = c2 g2 − c3 g3
 ///

@@ -42,7 +42,7 @@ bool finite(std::span<const double> values) {
 }
 
 /// The components of the state that the directions move, at once or through others: shear leaves those along the axes
-/// alone, and the reverse. What is not reached is exactly 0.
+/// alone, and the reverse. Unreached entries are exactly 0.
 template <class ByStrain, class ByState>
 std::vector<std::size_t> reached(std::size_t m, std::size_t d, const ByStrain& Q, const ByState& P) {
   std::vector<bool> is(m, false);

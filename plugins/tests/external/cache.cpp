@@ -79,7 +79,8 @@ void Cache::keep(const std::string& key, const Numbers& numbers) {
   const std::lock_guard lock(mutex_);
   kept_.insert_or_assign(key, numbers);
   if (folder_.empty()) return;
-  // Under another name first, so that no reader finds half a file. What cannot be written is only computed again.
+  // It is first written under another name, so no reader finds an incomplete file. If writing fails, the result is only
+  // computed again.
   const std::filesystem::path partial = folder_ / fmt::format("{}.{}.part", key, getpid());
   const nlohmann::json list(numbers);
   std::error_code error;

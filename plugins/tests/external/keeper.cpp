@@ -22,7 +22,7 @@ void tell(int pipe, Message::Kind kind, int value) {
   [[maybe_unused]] const auto written = write(pipe, &message, sizeof message);  // the reader is gone: nobody to tell
 }
 
-/// A new program expects what a shell gives it: no signal blocked, none ignored.
+/// A new program expects the signal state that a shell gives it: no signal blocked, none ignored.
 void restore_signals() {
   struct sigaction standard = {};
   standard.sa_handler = SIG_DFL;

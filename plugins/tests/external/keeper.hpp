@@ -7,7 +7,7 @@
 
 namespace tunica::external {
 
-/// What the keeper of a program tells over its pipe, one after another.
+/// The messages that the keeper of a program sends through its pipe, in order.
 struct Message {
   enum class Kind {
     group,        ///< the program's process group
@@ -21,7 +21,7 @@ struct Message {
   int value = 0;
 };
 
-/// What a keeper needs; made before the fork, since nothing may be allocated behind it.
+/// The data of a keeper, made before the fork because nothing may be allocated after it.
 struct Kept {
   const char* folder;         ///< in which the program runs
   const char* output;         ///< takes what it prints

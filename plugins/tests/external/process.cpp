@@ -41,7 +41,7 @@ std::vector<std::string> environment_of(const Command& command) {
   return variables;
 }
 
-/// The next message, waited for until then; none: the time is up. A keeper that dies without a word counts as ended.
+/// Waits for the next message until then; none: the time is up. A keeper that dies silently counts as ended.
 std::optional<Message> next(int pipe, Clock::time_point limit) {
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(limit - Clock::now()).count();

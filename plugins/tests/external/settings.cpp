@@ -76,7 +76,7 @@ void read_files(const TestSetup& setup, Settings& settings) {
   }
 }
 
-/// Everything in the scratch folder has a name of its own.
+/// Everything in the scratch folder has a unique name.
 void check_names(const Settings& settings) {
   std::set<std::string> names{printed};
   const auto add = [&](const std::string& name, const char* option) {

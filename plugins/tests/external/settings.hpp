@@ -18,7 +18,7 @@ inline constexpr const char* printed = "output.txt";
 
 enum class Keep { never, on_failure, always };
 
-/// What the experiment file says of the solver, checked.
+/// The checked settings of the solver in the experiment file.
 struct Settings {
   std::filesystem::path program;                                     ///< the file that is run
   std::vector<TextTemplate> arguments;                               ///< behind it

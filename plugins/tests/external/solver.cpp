@@ -84,7 +84,7 @@ std::variant<Numbers, std::string> Solver::run_in_scratch(const std::vector<std:
   if (problem.empty()) return numbers;
   std::string words = fmt::format("'{}' {}. The last lines of its output: {}", settings_.program.filename().string(),
                                   problem, last_lines(scratch.folder() / printed, shown_lines));
-  // The words are the same for every run that fails alike, so that results count them together.
+  // Runs that fail in the same way have the same message, so results count them together.
   if (settings_.keep == Keep::never || ending.interrupted) return words;
   if (settings_.keep == Keep::on_failure && failed_ < kept_failures) scratch.keep_as_failed();
   return words + fmt::format(". The files of failed runs are in {}", (settings_.scratch / failed_folders).string());

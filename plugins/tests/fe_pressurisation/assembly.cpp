@@ -230,7 +230,7 @@ class AssemblyOf final : public Assembly {
       }
   }
 
-  /// Adds what the lanes of a row have, dof by dof.
+  /// Adds the values of a row's lanes, dof by dof.
   void gather(std::size_t row, const double* force, std::span<double> to) const {
     for (std::size_t a = 0; a < nn; ++a)
       for (std::size_t e = 0; e < n_; ++e) {

@@ -82,7 +82,7 @@ class Assembly {
                           std::span<State> product, State& residual, Changes* changes) = 0;
   /// −weight.right · ∂force/∂κ of the support, and by the free radius of each plane (0 where κ is).
   virtual double contract(const State& state, const Weights& weight, std::span<double> by_free) = 0;
-  /// Takes what the points remember on to the state, in History::after.
+  /// Advances the history of the points to the state, in History::after.
   virtual Status remember(const Material& material, const State& state) = 0;
   /// dq = −γ M⁻¹ (c + Gᵀ dx) for a solved dx; without `dilation` c is zero, and without `dx` that.
   virtual void pressures(const System& system, std::span<const double> dx, std::span<const double> dilation,

@@ -66,7 +66,7 @@ std::optional<std::size_t> Banded::by_blocks(const std::function<bool()>& late) 
   return negative;
 }
 
-/// What the columns of a panel take from those after it.
+/// The update of later columns by the columns of a panel.
 void Banded::subtract_panel(std::size_t at_panel) {
   const std::size_t height = height_, first = at_panel * panel;
   const double* const l = a_.data() + first * height;

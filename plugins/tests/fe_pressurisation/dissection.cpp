@@ -22,7 +22,7 @@ double operations_of(std::size_t own, std::size_t height) {
 
 }  // namespace
 
-/// Smaller ones take more time for what is around them than for themselves.
+/// Smaller parts would cost more time for their surroundings than for themselves.
 bool Dissection::small(const Mesh& mesh, const Part& part) {
   const std::size_t side = 4 / mesh.order;
   return (part.right - part.left) * (part.high - part.low) <= side * side;
@@ -146,7 +146,7 @@ bool Dissection::prepare(const Mesh& mesh, const Stencil& matrix, const std::fun
   return locate(mesh, matrix, late);
 }
 
-/// Where the entries of the matrix go, and what a front leaves.
+/// The positions of the matrix entries, and the remainder of each front.
 bool Dissection::locate(const Mesh& mesh, const Stencil& matrix, const std::function<bool()>& late) {
   entries_.clear();
   std::vector<std::size_t> row(size_, nowhere);
@@ -192,7 +192,7 @@ bool Dissection::locate(const Mesh& mesh, const Stencil& matrix, const std::func
   return true;
 }
 
-/// What the matrix has of a front.
+/// The matrix entries of a front.
 void Dissection::load(const Front& front, const Stencil& matrix, double diagonal) {
   double* const a = a_.data() + front.place;
   std::fill_n(a, front.own * front.height, 0.0);
@@ -208,7 +208,7 @@ void Dissection::load(const Front& front, const Stencil& matrix, double diagonal
   }
 }
 
-/// Adds what a front left to the next one up.
+/// Adds the remainder of a front to its parent.
 void Dissection::extend(const Front& from, const Front& to, const double* left, double* a, double* to_left) {
   for (const Run& columns : from.runs)
     for (std::size_t c = 0; c < columns.length; ++c) {

@@ -14,7 +14,7 @@
 
 namespace tunica::fe {
 
-/// What a factor takes: multiply–adds, and doubles to keep and to work with.
+/// The cost of a factor: multiply–adds, and doubles of storage and workspace.
 struct FactorCost {
   double operations = 0, kept = 0, working = 0;
   [[nodiscard]] double bytes() const { return 8 * (kept + working); }

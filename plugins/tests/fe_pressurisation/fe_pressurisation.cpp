@@ -148,7 +148,7 @@ class FePressurisation final : public Test {
     return {input.layers.begin(), input.layers.end()};
   }
 
-  /// What is simulated: the tube with its imperfections and what it is made of, and what is prescribed at each row.
+  /// The simulated tube with its imperfections and materials, and the prescribed values of each row.
   struct Setting {
     Tube plan;
     std::optional<thick_wall::Wall> wall;

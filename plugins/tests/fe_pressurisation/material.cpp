@@ -19,7 +19,7 @@ bool linear_in_C(const Model& model, std::span<const double> parameters) {
   });
 }
 
-/// What a call writes, and what nobody reads.
+/// The outputs of a call, including unused ones.
 struct Scratch {
   std::vector<double> tensors, stress, tangent, stress_dp, gradient_dp, time_steps;
   std::vector<double> opened, C, energy, first, second, first_dp;
@@ -109,7 +109,7 @@ void Material::close(const Call& call) const {
   }
 }
 
-/// The points of each layer are gathered for one call of its model, and what it answers goes back to their places.
+/// The points of each layer are gathered for one call of its model, and its results are scattered back.
 Status Material::in_layers(const Call& call, std::size_t row) const {
   const std::size_t n = call.n, lanes = lanes_ == 0 ? n : lanes_, groups = n / lanes;
   Scratch& my = scratch();

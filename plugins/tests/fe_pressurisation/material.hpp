@@ -53,7 +53,7 @@ class Material {
   /// From now on points respond to the history, which outlives this; null = at equilibrium.
   void follow(History* history) { history_ = history; }
   [[nodiscard]] bool remembers() const { return history_ != nullptr; }
-  /// Takes what the points of a row of elements remember on to the state C, in History::after.
+  /// Advances the history of the points of a row of elements to the state C, in History::after.
   Status remember(std::size_t n, std::span<const double> C, std::size_t row) const;
 
   [[nodiscard]] std::size_t layer_count() const { return layers_.size(); }
@@ -68,7 +68,7 @@ class Material {
     bool diagonal;
     std::size_t first_lane, last_lane;
   };
-  /// One of the calls above: what it is given and what it wants.
+  /// One of the calls above: its inputs and requested outputs.
   struct Call {
     std::size_t n;
     std::span<const double> C;

@@ -21,7 +21,7 @@ double slowness(double before, double now, std::size_t points) {
   return power > 1 ? std::max(1., static_cast<double>(points) / (3 * (power - 1))) : static_cast<double>(points);
 }
 
-/// What is no number stays.
+/// Non-finite values stay.
 double largest_of(const std::array<double, 3>& errors) {
   double largest = 0;
   for (const double error : errors)

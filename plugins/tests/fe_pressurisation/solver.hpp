@@ -41,7 +41,7 @@ struct Load {
   double stretch = 1, pressure = 0;
 };
 
-/// What a solution is for.
+/// The purpose of a solution.
 enum class Aim {
   state,   ///< nothing beside
   factor,  ///< the factor of a state nearby, too

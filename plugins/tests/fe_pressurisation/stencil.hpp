@@ -33,7 +33,7 @@ class Stencil {
   [[nodiscard]] const double* column(std::size_t j) const { return a_.data() + j * slots(); }
   /// Of entry (i, j), i ≥ j, from column(0) on.
   [[nodiscard]] std::size_t place(std::size_t i, std::size_t j) const { return j * slots() + slot(i - j); }
-  /// slots() where there is no entry.
+  /// slots() if there is no entry.
   [[nodiscard]] std::size_t slot(std::size_t below) const;
   /// Adds to (i, j) and thereby to (j, i), which share an element.
   void add(std::size_t i, std::size_t j, double value) {

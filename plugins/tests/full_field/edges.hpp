@@ -9,7 +9,7 @@
 
 namespace tunica::field {
 
-/// What is known of one displacement component on one side.
+/// The known values of one displacement component on one side.
 enum class Edge {
   free,     ///< no traction
   fixed,    ///< 0

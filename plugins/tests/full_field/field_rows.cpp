@@ -52,7 +52,7 @@ void FieldRows::take_rows(const TestSetup& setup) {
   }
 }
 
-/// The points of each step and what was measured there.
+/// The points of each step and the values measured there.
 void FieldRows::take_frames(const TestSetup& setup, const Edges& edges) {
   std::array<std::span<const double>, 2> measured;
   for (std::size_t k = 0; k < channels_.size() && k < setup.measured.size(); ++k)

@@ -12,7 +12,7 @@
 
 namespace tunica::field {
 
-/// What is read off a simulated step; the number of a force less 2 is that of its side.
+/// The quantities read from a simulated step; the number of a force minus 2 is that of its side.
 enum class Channel : std::size_t { ux, uy, left, right, bottom, top };
 constexpr std::array<const char*, 6> channel_names{"ux",          "uy",           "force_left",
                                                    "force_right", "force_bottom", "force_top"};

@@ -10,7 +10,7 @@
 
 namespace tunica::field {
 
-/// What a sheet, or how it was held, may have that the file does not say.
+/// Imperfections of a sheet or its mounting that the file does not state.
 enum class Flaw {
   clamp_slip,          ///< share of the way of the moved side by which the opposite clamp lets go
   grip_tilt,           ///< how much farther one end of a grip goes than its middle, over its way

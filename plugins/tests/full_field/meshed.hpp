@@ -12,7 +12,7 @@
 
 namespace tunica::field {
 
-/// A mesh, and what a measured field is on it. Immutable, shared by all threads.
+/// A mesh and the measured field on it. Immutable, shared by all threads.
 class Meshed {
  public:
   /// `smoothing`: degree along measured sides. Keeps the rows by reference. Throws InputError where points lie outside.

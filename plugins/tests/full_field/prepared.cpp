@@ -47,7 +47,7 @@ Prepared::Prepared(const TestSetup& setup)
 }
 
 std::shared_ptr<const Prepared> prepared(const TestSetup& setup) {
-  // Different fields are made side by side, and one field once.
+  // Different fields are prepared in parallel, and each field only once.
   struct Slot {
     std::mutex mutex;
     std::weak_ptr<const Prepared> made;

@@ -17,7 +17,7 @@ struct Reading {
   std::vector<double> values;
 };
 
-/// Readings by the points that they have, so that each set of points is smoothed once.
+/// Readings by their set of points; each set is thus smoothed once.
 std::map<std::vector<std::size_t>, std::vector<Reading>> readings(const FieldRows& rows) {
   std::map<std::vector<std::size_t>, std::vector<Reading>> found;
   for (std::size_t s = 0; s < rows.steps().size(); ++s) {

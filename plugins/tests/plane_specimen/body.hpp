@@ -14,7 +14,7 @@
 
 namespace tunica::plane {
 
-/// Values of dofs with their weights: what a marker or a gauge reads off the displacements.
+/// Dofs with their weights: the reading of a marker or a gauge from the displacements.
 using Reading = std::vector<std::pair<std::size_t, double>>;
 
 /// How the ends are held.

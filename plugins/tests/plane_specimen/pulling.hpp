@@ -12,7 +12,7 @@
 
 namespace tunica::plane {
 
-/// What is read off at every row.
+/// The readings at every row.
 struct Gauge {
   enum class Kind { stress, stretch, transverse_stretch };
   Kind kind = Kind::stress;

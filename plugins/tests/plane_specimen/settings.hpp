@@ -7,7 +7,7 @@
 #include "shape.hpp"
 #include "tunica/options.hpp"
 
-/// What the options of the test say of the specimen. Throws InputError where they make no sense together.
+/// The specimen, from the options of the test. Throws InputError if the options contradict each other.
 namespace tunica::plane {
 
 Shape shape_of(const Options& given);

@@ -8,7 +8,7 @@ namespace tunica::thick_wall {
 /// The fewest rows at one axial stretch for which sampling the curve costs less than following it.
 inline constexpr std::size_t fewest_on_curve = 8;
 
-/// What the samples of a curve leave undone.
+/// The rows that the samples of a curve do not settle.
 struct CurveError {
   double quadrature = 0;     ///< the largest estimate of what quadrature leaves in y
   double interpolation = 0;  ///< the largest estimate of what is left in y between the samples

@@ -9,7 +9,7 @@
 namespace tunica::thick_wall {
 namespace {
 
-/// A change of the geometric variables, and what a parameter changes beside them.
+/// A change of the geometric variables, and the other changes by a parameter.
 struct Direction {
   std::array<double, variable_count> by{};  ///< of λz, K, V, ι; y follows from equilibrium
   double tether = 0, pressure = 0;
@@ -168,7 +168,7 @@ class RowDerivatives {
     numbers.assign(size, 0);
     return numbers;
   }
-  /// Adds what a geometric variable changes.
+  /// Adds the effect of a geometric variable.
   void add(double by, Variable of, double* p, double* F) const {
     if (by == 0) return;
     detail::vectorised([by, p, p_of = by_.p[of], n = n_] {
@@ -180,7 +180,7 @@ class RowDerivatives {
   void add_to(double* F, Variable of, const double* by) const {
     for (std::size_t i = 0; i < n_; ++i) F[i] += by_.F[of][i] * by[i];
   }
-  /// What the material alone changes.
+  /// The effect of the material alone.
   void material(const Direction& direction) {
     double* const p = number(p_change);
     double* const F = force_ ? number(F_change) : nullptr;
@@ -211,7 +211,7 @@ Status differentiate(const Tube& tube, const Wall& wall, const SectorDerivative&
   const std::size_t by_axial = all.size();  // one more, for the abscissa
   all.emplace_back().by[axial] = 1;
 
-  // How the unpressurised outer radii change: without support nobody feels it.
+  // The change of the unpressurised outer radii; it has no effect without support.
   std::vector<double> free;
   if (supported) {
     if (Status status = evaluate_rows(solution.free_rows, {.parameters = parameters, .force = false}, sections, wall);

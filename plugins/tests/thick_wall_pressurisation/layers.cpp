@@ -48,7 +48,7 @@ Status Layers::evaluate(std::size_t n, std::span<const Run> runs, std::span<cons
   return {};
 }
 
-/// The layer's points are gathered for one call of its model, and what it answers goes back to their places.
+/// The layer's points are gathered for one call of its model, and its results are scattered back.
 Status Layers::evaluate_layer(std::size_t layer, std::size_t n, std::span<const Run> runs, std::span<const double> c,
                               std::span<double> gradient, std::span<double> hessian, std::span<double> gradient_dp,
                               const Memory& memory) const {

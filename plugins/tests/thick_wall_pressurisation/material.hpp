@@ -8,7 +8,7 @@
 
 namespace tunica::thick_wall {
 
-/// What a point of the wall remembers, for models with history; empty spans elsewhere.
+/// The history of a point of the wall, for models with memory; empty spans otherwise.
 struct Memory {
   std::span<const double> time_step, old_state;
   std::span<double> new_state;

@@ -7,7 +7,7 @@ namespace tunica::thick_wall {
 
 Wall::Wall(const Tube& tube, std::span<const double> own)
     : Ro(tube.outer_radius), interfaces(tube.interfaces), layered(tube.layered), tether(own[tethering]) {
-  // Null by null, so that nothing but the bare tube is computed there.
+  // Each imperfection is skipped at its null, so only the bare tube is computed there.
   const double thickness = tube.outer_radius - tube.inner_radius, error = own[thickness_error];
   Ri = error == 0 ? tube.inner_radius : Ro - thickness * (1 + error);
   V = Ro * Ro - Ri * Ri;

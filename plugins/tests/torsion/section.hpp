@@ -29,7 +29,7 @@ namespace tunica::torsion {
 enum Variable : int { ln_inner, axial, twist, inner, variable_count };
 using Jet = ceres::Jet<double, variable_count>;
 
-/// What a section bears.
+/// The resultants of a section.
 struct Loads {
   Jet pressure, force, torque;
 };

@@ -26,7 +26,7 @@ struct TwistedRows {
   std::vector<Channel> channels;
   std::vector<std::vector<double>> columns;  ///< the mapped abscissae, in the order of the mapping
   std::vector<std::string> names;            ///< of the columns
-  /// Columns of what is prescribed.
+  /// Columns of the prescribed quantities.
   std::size_t twist_column = 0;
   std::optional<std::size_t> pressure_column, stretch_column;
   bool by_angle = false;  ///< the twist is an angle over `length`

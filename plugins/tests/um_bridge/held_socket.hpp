@@ -18,7 +18,7 @@ class HeldSocket {
   void hold(int socket);
   /// Bytes that the other side has sent, read or not; 0 where the system does not tell.
   [[nodiscard]] std::uint64_t received() const;
-  /// Whoever waits on it gets an error at once.
+  /// A thread that waits on it gets an error at once.
   void end() const;
 
  private:

@@ -29,7 +29,7 @@ Status overflow(const Strip& strip, std::span<const double> stretch, std::size_t
   return Status::failed("uniaxial: the stress overflows at " + row_name(strip, stretch, row));
 }
 
-/// Whatever the test was asked for, from the solution of every row.
+/// All requested outputs, from the solution of every row.
 Status write(const Strip& strip, const StripPath& path, const TestOutput& output) {
   const std::size_t n = path.stretch.size(), rows = strip.channels.size() * n;
   for (std::size_t i = 0; i < n; ++i) {
