@@ -10,14 +10,14 @@
 /// Results on stdout, which plugins cannot get at.
 namespace tunica::app {
 
-/// From here on, what anybody else writes to stdout goes to stderr: a plugin that prints must not spoil an answer. Call
-/// it before plugins are loaded.
+/// From here on, all other output to stdout goes to stderr: a plugin that prints must not spoil an answer. Call it
+/// before plugins are loaded.
 void keep_stdout();
 /// The descriptor that answers go to: stdout as the program was started with it.
 int answer_descriptor();
 /// Adds `words` to the answer.
 void write_answer(const std::string& words);
-/// Hands over what was written so far. Throws execution::WriteFailure where it could not be written.
+/// Writes the buffered answer. Throws execution::WriteFailure if that fails.
 void flush_answer();
 
 /// Prints a part of the answer.

@@ -33,7 +33,7 @@ using text::counted;
 using text::hanging;
 using text::pad;
 
-/// "Cauchy stress": what a column of stress was taken for; empty for other channels.
+/// "Cauchy stress": the measure as which a column of stress was read; empty for other channels.
 std::string measure_of(const experiment::Experiment& experiment, const assembly::MeasuredChannel& channel) {
   if (channel.observable != "stress") return "";
   const auto test = std::find_if(experiment.tests.begin(), experiment.tests.end(),
@@ -95,7 +95,7 @@ std::string duration_text(double seconds) {
   return seconds < 3600 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.3g} h", seconds / 3600);
 }
 
-/// What the budget of a run may cost, where that is more than an hour.
+/// The time that the budget of a run may take, if it is more than an hour.
 void print_cost(const calibration::PosedProblem& problem) {
   const auto& entry = *problem.run->entry;
   const auto evaluations = entry.stop.max_evaluations * entry.realisations;
@@ -107,7 +107,7 @@ void print_cost(const calibration::PosedProblem& problem) {
                                              evaluations, duration_text(most))));
 }
 
-/// What the tests find of themselves by other means.
+/// Comparisons of the tests with independent solutions.
 void print_agreement(const calibration::OtherMeans& other) {
   for (const auto& one : other.found)
     answer("{}\n",

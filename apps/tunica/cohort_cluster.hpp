@@ -10,7 +10,7 @@
 
 namespace tunica::app {
 
-/// What `cohort submit`, `status` and `resubmit` are told.
+/// The options of `cohort submit`, `status` and `resubmit`.
 struct ClusterOptions {
   std::string file, directory, time, memory, merge_time, merge_memory, partition;
   std::size_t shards = 0;  ///< 0: from the pilot

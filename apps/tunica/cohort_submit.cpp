@@ -114,7 +114,7 @@ std::string describe_pilot(const cluster::Pilot& pilot) {
       pilot.specimens, pilot.mean_seconds, pilot.longest_seconds, pilot.start_seconds, pilot.peak_bytes >> 20);
 }
 
-/// Number of shards and their limits: what the user said, else from a pilot.
+/// Number of shards and their limits: as the user set them, else from a pilot.
 cluster::Wishes plan(const ClusterOptions& options, const ClusterCohort& cohort, const cluster::Invocation& call,
                      std::vector<char>& missing, double scan_seconds) {
   const std::size_t largest = cluster::slurm::largest_index().value_or(usual_largest_index);

@@ -31,7 +31,7 @@ struct Verb {
 
 Verb command_tree(const CLI::App& app);
 
-/// What a shell offers where a value is wanted, known by how the help calls the value.
+/// The shell's suggestions for a value, chosen by the value's name in the help.
 enum class Offer { nothing, words, experiment, file, folder, names, mechanisms };
 Offer offer_for(const Argument& argument);
 

@@ -87,7 +87,7 @@ constexpr const char* walk = R"sh(_tunica() {
 complete -F _tunica tunica
 )sh";
 
-/// The shell command that offers what an argument takes.
+/// The shell command that suggests values of an argument.
 std::string action(const Argument& argument) {
   switch (offer_for(argument)) {
     case Offer::words:

@@ -51,7 +51,7 @@ struct DiagnoseOptions {
   bool quick = false, batch = false, no_discovery = false;
 };
 
-/// The file's request, with what the command line says instead.
+/// The file's request, with overrides from the command line.
 diagnosis::Request request_of(const experiment::Experiment& experiment, const Session& session,
                               const DiagnoseOptions& options) {
   diagnosis::Request request = diagnosis::request_of(experiment);

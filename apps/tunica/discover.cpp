@@ -56,7 +56,7 @@ std::string discovery_interrupted() {
       text::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "");
 }
 
-/// The folder for results, and what of it was made for them.
+/// The folder for results, and the parts of its path that were created for them.
 struct Output {
   std::vector<std::filesystem::path> made;
   execution::RunDirectory directory;

@@ -3,7 +3,7 @@
 
 namespace tunica::app {
 
-/// What the process returns; scripts rely on it.
+/// The exit codes of the process; scripts rely on them.
 enum ExitCode : int {
   done = 0,
   not_converged =

@@ -10,7 +10,7 @@
 
 namespace tunica::app {
 
-/// What a client may send and how long it may take.
+/// The limits on a client's request: its size and its duration.
 struct HttpLimits {
   std::size_t head = std::size_t{32} << 10U;  ///< bytes of the request line with all headers
   std::size_t body = std::size_t{64} << 10U;  ///< bytes as they are sent, framing of chunks included
@@ -35,7 +35,7 @@ class HttpConnection final : public httplib::Stream {
   [[nodiscard]] bool is_spent() const { return spent_; }
   /// What follows is not read.
   void spend() { spent_ = true; }
-  /// Ends it so that the client can still read the answer where something that it sent was not read.
+  /// Closes the connection. The client can still read the answer, even if part of its request was not read.
   void close();
 
   [[nodiscard]] bool is_readable() const override;

@@ -8,13 +8,13 @@
 
 namespace tunica::app {
 
-/// What an HTTP server answers: JSON with a status.
+/// The response of an HTTP server: JSON with a status.
 struct HttpReply {
   int status = 200;
   std::string json;
 };
 
-/// Where it listens and what it is asked.
+/// Its address and its request handler.
 struct HttpService {
   std::string host;
   int port = 0;                          ///< 0 = any that is free

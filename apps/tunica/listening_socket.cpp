@@ -67,7 +67,7 @@ int listen_on(const std::string& host, int port) {
   for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
     const int descriptor = ::socket(one->ai_family, one->ai_socktype | SOCK_CLOEXEC, one->ai_protocol);
     if (descriptor < 0) continue;
-    // Not SO_REUSEPORT, with which two servers share a port and nobody notices.
+    // Not SO_REUSEPORT, which lets two servers share a port unnoticed.
     const int yes = 1;
     ::setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     if (::bind(descriptor, one->ai_addr, one->ai_addrlen) == 0 && ::listen(descriptor, SOMAXCONN) == 0)

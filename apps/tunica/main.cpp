@@ -57,7 +57,7 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// An option with nothing behind it is a variable of a script that was never set; what it would mean is a guess.
+/// An option with an empty value is probably an unset variable of a script; its intended value is unknown.
 void check_values(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     for (const std::string& value : option->results())
@@ -120,7 +120,7 @@ int run(int argc, char** argv) {
   return code;
 }
 
-/// What main() returns, whatever is thrown.
+/// The return value of main() for any exception.
 int contained(int argc, char** argv) {
   const auto fault = [](const std::string& what) {
     say_error(

@@ -18,7 +18,7 @@ void say_warning(const std::string& text);
 /// The same, in lines of 80 columns.
 void say_wrapped_warning(const std::string& text);
 
-/// What the parser found amiss, with the option that was probably meant and where to read on.
+/// The parser's error, with the option that was probably meant and a reference to the help.
 std::string command_line_error(const CLI::App& program, const CLI::Error& problem);
 
 /// --help in lines of 80 columns.

@@ -121,7 +121,7 @@ json as_json(const Finding& finding) {
   const conformance::Verdict& verdict = finding.verdict;
   json one{{"kind", finding.kind},         {"name", finding.name},        {"with", finding.with},
            {"property", finding.property}, {"outcome", outcome(finding)}, {"compared", verdict.compared}};
-  // An error that is infinite is no number in JSON.
+  // JSON has no number for an infinite error.
   one["worst"] = verdict.worst;
   one["tolerance"] = verdict.tolerance;
   if (!verdict.counter_example.empty()) one["counter_example"] = verdict.counter_example;

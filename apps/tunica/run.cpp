@@ -61,7 +61,7 @@ void check_names(const std::vector<std::string>& names) {
                       name));
 }
 
-/// With everything that decides the result, so that it works as it is printed.
+/// With every option that affects the result, so the printed command works unchanged.
 std::string command(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory,
                     const std::vector<std::string>& how) {
   std::vector<std::string> words{"tunica", "run", options.file, "-o", directory.string()};
@@ -176,7 +176,7 @@ void print(const GlobalOptions& global, const calibration::Outcome& outcome, con
          text::hanging("Next:    ", next_step(global, outcome.summary, experiment, file, outcome.result)));
 }
 
-/// What a process before this one has begun is resumed. A shard takes up its own folder by itself.
+/// Resumes work that an earlier process began. A shard resumes its own folder itself.
 RunOptions taken_up(RunOptions options) {
   const auto folder = supervised::resumable_folder();
   if (folder.empty() || !options.share.empty()) return options;

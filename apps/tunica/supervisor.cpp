@@ -152,27 +152,27 @@ pid_t start(const std::function<int()>& work) {
   return process;
 }
 
-/// Ends as the child ended, so that a shell sees what it expects of Ctrl-C or of a closed pipe.
+/// Ends as the child ended. A shell then sees the expected status after Ctrl-C or a closed pipe.
 [[noreturn]] void end_by(int number) {
   ::signal(number, SIG_DFL);
   ::raise(number);
   ::_exit(128 + number);
 }
 
-/// A signal that tells of a fault, or of somebody who made short work of it.
+/// A signal that shows a fault, or a kill from outside.
 bool is_fault(int number) {
   constexpr std::array faults{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGKILL};
   return std::find(faults.begin(), faults.end(), number) != faults.end();
 }
 
-/// A plugin may have written anything anywhere: texts end, whatever is in them.
+/// A plugin may have overwritten anything: the text is terminated, whatever it contains.
 void end_texts() {
   for (plugins::Casualty& one : common->casualties.entries) one.plugin.back() = one.what.back() = one.end.back() = 0;
   for (Path* path : {&common->resumable, &common->disposable}) path->back() = 0;
   for (Path& path : common->unfinished) path.back() = 0;
 }
 
-/// Takes away what the child had begun and another one begins anew.
+/// Removes unfinished results of the child, which its successor starts again.
 void remove_unfinished() {
   std::error_code left;
   if (common->disposable.front() != 0)
@@ -186,7 +186,7 @@ void remove_unfinished() {
   common->disposable.front() = 0;
 }
 
-/// A successor would print again what was printed.
+/// A successor would print the same output again.
 bool has_answered() { return common->answered && !common->serves; }
 
 /// A plugin that was evaluated no more, and whose thread ended the process again: it is made where the plugin is
@@ -195,7 +195,7 @@ bool has_fallen_for_good(const plugins::Casualty& last) {
   return common->casualties.weight(last.plugin.data()) >= plugins::CasualtyList::most_of_one_plugin + last.weight;
 }
 
-/// The first few are told as they are; a plugin that goes on like that is told of once more.
+/// The first few crashes are reported one by one; a plugin that continues to crash is reported once more.
 void say_what_fell(const plugins::Casualty& casualty, bool goes_on) {
   using plugins::CasualtyList;
   constexpr unsigned told = 3;

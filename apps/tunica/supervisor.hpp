@@ -14,7 +14,7 @@ namespace tunica::app {
 /// where the child does not stop within a few seconds. Returns the exit code of the program.
 int supervise(const std::function<int()>& work);
 
-/// What the child tells its supervisor. Each call is of no consequence in a process without one.
+/// Messages of the child to its supervisor. The calls have no effect in a process without a supervisor.
 namespace supervised {
 
 /// The work of this process was begun by another one.
@@ -28,7 +28,7 @@ std::filesystem::path resumable_folder();
 void unfinished(const std::vector<std::filesystem::path>& made, const std::filesystem::path& results = {});
 /// Something was printed that a successor would print again: there must be none.
 void answered();
-/// What was printed is where the process can be asked: a successor goes on without printing it.
+/// The printed text is the address of the server, so a successor continues without printing it.
 void serves();
 /// Keeps a descriptor for a successor.
 void park(int descriptor);

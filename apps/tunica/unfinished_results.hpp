@@ -12,7 +12,7 @@ namespace tunica::app {
 /// (SIGINT) or SIGTERM, which ends the process with `message` on stderr and exit code 130. One object at a time.
 class UnfinishedResults {
  public:
-  /// The innermost folder first. What is not there yet is no error.
+  /// The innermost folder first. A missing entry is not an error.
   UnfinishedResults(const std::vector<std::filesystem::path>& made, const std::string& message);
   ~UnfinishedResults();
   UnfinishedResults(const UnfinishedResults&) = delete;

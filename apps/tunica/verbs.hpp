@@ -11,7 +11,7 @@
 
 #include "session.hpp"
 
-/// One function a verb: declares its arguments, and puts what it does into `action`, which returns the exit code.
+/// One function per verb: it declares the arguments, and sets `action`, which does the work and returns the exit code.
 namespace tunica::app {
 
 using Action = std::function<int()>;

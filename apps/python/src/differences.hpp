@@ -15,7 +15,7 @@ namespace tunica::python {
 /// The step that balances truncation h²f‴ against rounding εf/h, on this scale.
 inline double step_on(double scale) { return std::cbrt(std::numeric_limits<double>::epsilon()) * scale; }
 
-/// What is differenced: writes f(x₀ + offset).
+/// The function to difference: writes f(x₀ + offset).
 using Moved = std::function<Status(double offset, std::span<double> into)>;
 
 /// (f(h) − f(−h))/2h into `column` or, where one side is not there, (4f(±h) − 3f(0) − f(±2h))/(±2h).

@@ -32,7 +32,7 @@ class Kept {
 /// innermost place of it. With the lock.
 std::string reason_of(const std::string& owner, pybind11::error_already_set& raised);
 
-/// Calls Python with the lock; what it raises becomes a failed evaluation.
+/// Calls Python with the lock; an exception becomes a failed evaluation.
 template <class Call>
 Status guarded_call(const std::string& owner, const Call& call) {
   const pybind11::gil_scoped_acquire lock;

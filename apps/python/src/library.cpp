@@ -17,7 +17,7 @@ namespace tunica::python {
 
 namespace {
 
-/// Each definition stands for a plugin of its own, which results name.
+/// Each definition counts as a separate plugin, which results name.
 template <class Factories>
 void commit(const Factories& factories, plugins::Catalogue& catalogue) {
   for (const auto& [name, factory] : factories) {

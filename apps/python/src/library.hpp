@@ -13,7 +13,7 @@
 
 namespace tunica::python {
 
-/// An experiment with the catalogue that it was read with, which stays as it is whatever is defined later.
+/// An experiment with the catalogue at the time of reading, which later definitions do not change.
 struct Loaded {
   std::shared_ptr<const plugins::Catalogue> catalogue;
   experiment::Experiment experiment;
@@ -40,7 +40,7 @@ class Library {
   void define(TestFactory factory) { tests_.insert_or_assign(factory.type, factory); }
   void define(OptimizerFactory factory) { optimizers_.insert_or_assign(factory.type, factory); }
   void define(MechanismFactory factory) { mechanisms_.insert_or_assign(factory.id, factory); }
-  /// Takes back what was defined under this name.
+  /// Removes the definition of this name.
   void forget(const std::string& name) {
     models_.erase(name);
     tests_.erase(name);

@@ -29,7 +29,7 @@ std::map<std::string, std::string> docs_of(const Shelf& shelf) {
   return docs;
 }
 
-/// JSON text of what the types of this name declare, by their kind.
+/// JSON text of the declarations of the types with this name, by kind.
 std::string describe(const Library& library, const std::string& name) {
   const auto catalogue = library.catalogue();
   json document = json::object();

@@ -19,7 +19,7 @@ struct Output {
   std::span<double> into;
 };
 
-/// Asks for what is not empty, and copies the answer.
+/// Requests the outputs that are not empty, and copies the results.
 Status answer(const py::object& object, const char* method, std::span<const double> points, std::size_t components,
               std::size_t count, std::span<const double> parameters, std::span<const Output> outputs) {
   py::list wanted;

@@ -103,7 +103,7 @@ std::string stability(const Loaded& loaded, const std::string& model, const Fold
   return comparison::stability_answer_json(subject, answer).dump();
 }
 
-/// One page of several folders, or of one in a file of its own.
+/// One page of several folders, or of one folder in a separate file.
 void write_page(const std::vector<std::string>& folders, const std::string& file) {
   const py::gil_scoped_release free;
   const auto beside = std::filesystem::absolute(file).parent_path();

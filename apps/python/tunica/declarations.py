@@ -49,7 +49,7 @@ def options_of(declared):
     return [{"name": name, "default": default, "doc": doc} for name, (default, doc) in pairs.items()]
 
 
-#: {name: module} of what was defined, for processes that have to know it too
+#: {name: module} of the definitions, for other processes that need them
 modules = {}
 
 

@@ -24,7 +24,7 @@ class Doorkeeper {
   /// Before the first request. Tokens are random, and those of a predecessor where there was one, see
   /// supervised::parked(); the listening socket has to be parked before.
   void opened_at(int port);
-  /// What the browser is given to open.
+  /// The file that the browser opens.
   [[nodiscard]] std::string address() const;
   /// Where files of the project are shown: "/view/<token>/".
   [[nodiscard]] std::string view() const { return "/view/" + tokens_.substr(length) + "/"; }
@@ -43,7 +43,7 @@ class Doorkeeper {
 /// A reply in words, and a line on stderr and in .tunica-studio/refused.log of the project.
 WebReply refusal(const WebRequest& request, int status, const std::string& why);
 
-/// Headers of every page and file: nothing is taken for another type, framed, or told to others.
+/// Headers of every page and file: they forbid type sniffing, framing and referrers.
 std::vector<std::pair<std::string, std::string>> guarded_headers(const std::string& policy);
 
 }  // namespace tunica::app::studio

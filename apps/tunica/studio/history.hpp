@@ -9,7 +9,7 @@
 
 #include "studio/job_record.hpp"
 
-/// What was tried, read from the folders of results themselves.
+/// Earlier attempts, read from the result folders themselves.
 namespace tunica::app::studio {
 
 /// One folder of results: {"folder", "kind": run|diagnosis|discovery|cohort|simulation|unfinished, "written" (s since

@@ -21,14 +21,14 @@ struct JobRecord {
   bool asked_to_stop = false;
   std::string output = {};  ///< the one file that the verb writes; empty where it writes a folder, or in its place
 
-  /// "run" saves as it goes, and takes up what is saved.
+  /// "run" saves continuously, and resumes from the saved state.
   [[nodiscard]] bool is_resumable() const;
   [[nodiscard]] std::filesystem::path file(const char* ending) const;
 };
 
 /// The number of the next one, six digits.
 std::string next_job_id();
-/// Newest first; what is no record is left out.
+/// Newest first; invalid records are left out.
 std::vector<JobRecord> job_records();
 void write_record(const JobRecord& job);
 

@@ -33,7 +33,7 @@ class Jobs {
   /// {"verb": "report", "folders"} or {"verb": "export", "folder", "to", "units", "run"}. Returns as all() does. Throws
   /// InputError.
   nlohmann::ordered_json start(const nlohmann::json& request);
-  /// As Ctrl-C does: what is found is saved.
+  /// As Ctrl-C does: results so far are saved.
   void stop(const std::string& id);
   /// The newest first, with "state": running, done, not_converged, failed, stopped or interrupted.
   [[nodiscard]] nlohmann::ordered_json all();

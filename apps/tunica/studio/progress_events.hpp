@@ -11,7 +11,7 @@
 
 namespace tunica::app::studio {
 
-/// What a job has said last: of stderr while it runs, and all of stdout behind its end.
+/// The last output of a job: stderr while it runs, and all of stdout after its end.
 std::string last_words_of(const JobRecord& job);
 
 /// A stream of server-sent events from the files of a job. "progress": {"count", "rows": [[evaluation, run,

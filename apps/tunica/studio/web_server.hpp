@@ -10,7 +10,7 @@
 
 namespace tunica::app::studio {
 
-/// What a browser asks. Names are decoded; what was not sent is empty.
+/// The request of a browser. Names are decoded; missing parts are empty.
 struct WebRequest {
   std::string method, path;
   std::string token, name;  ///< of the query

@@ -144,7 +144,7 @@ std::string bytes_of(const json& head, const std::vector<float>& values) {
   return bytes;
 }
 
-/// Of the text of a file, to notice that somebody else has written it meanwhile.
+/// Of the text of a file, to detect changes by others.
 std::string hash_of(const std::string& text) { return fmt::format("{:016x}", std::hash<std::string>{}(text)); }
 
 /// A text as a file beside another one, where relative names of data begin at the same folder. It goes with this

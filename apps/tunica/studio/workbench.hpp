@@ -14,7 +14,7 @@
 
 namespace tunica::app::studio {
 
-/// A file is no longer what the page has read.
+/// A file has changed since the page read it.
 class Overtaken : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
