@@ -40,7 +40,7 @@ class Stage(typing.NamedTuple):
 
 
 ARTERIES, RUBBERS = ["gho", "holzapfel_2015", "four_fibre"], ["yeoh", "ogden"]
-# Class → what the generator is told of it.
+# Class → the options of the generator.
 CLASSES = {"plain": (), "unstated": ("--noise-not-stated",), "unordered": ("--order-not-recorded",),
            **{base: ("--base", base) for base in ARTERIES},
            "sheets": ("--protocol", "sheets"), "gho_sheets": ("--base", "gho", "--protocol", "sheets"),

@@ -25,7 +25,7 @@ BEGIN, END = "<!-- blind cohorts: begin -->", "<!-- blind cohorts: end -->"
 COUNTS = {"nulls": (100, 400, 8), "singles": (2, 5, 1), "pairs": (20, 60, 1), "groups": (1, 3, 1)}
 # Of the reduced run, which has to be quick: effects of every kind.
 REDUCED_EFFECTS = ["fibre_dispersion", "stress_softening", "pressure_offset"]
-# Figure → what has to be met: at least, at most.
+# Figure → its limits: at least, at most.
 BARS = {"false alarms": (0.035, 0.065), "right name": (0.97, 1), "right pair": (0.95, 1), "found and placed": (0.90, 1)}
 WORDS = {"false alarms": "false alarms at α = 0.05", "right name": "right name, effect in all specimens",
          "right pair": "right pair", "found and placed": "effect in one of two groups found, named and placed"}

@@ -10,7 +10,7 @@
 #include "plugins/guarded.hpp"
 #include "plugins/loader.hpp"
 
-/// What the benchmarks see of the built plugins.
+/// The benchmarks' access to the built plugins.
 namespace tunica::bench {
 
 inline const plugins::Catalogue& catalogue() {
@@ -28,7 +28,7 @@ inline const plugins::Catalogue& catalogue() {
 
 using OptionValues = std::vector<std::pair<std::string, Option::Value>>;
 
-/// Declared defaults, and what is given instead.
+/// Declared defaults with overrides.
 inline Options options_of(const std::vector<Option>& declared, const OptionValues& given = {}) {
   Options options;
   for (const Option& option : declared)

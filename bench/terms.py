@@ -40,7 +40,7 @@ BEGIN, END = "<!-- blind benchmark of {}: begin -->", "<!-- blind benchmark of {
 GENERATOR = ("laws", "deformation", "protocol", "bases", "fitting", "case_files")
 GENERATOR_OF = {"terms": "generate", "laws": "complete_laws"}
 
-# What is hidden → Λ, cases of every base and Λ, and those of a reduced run.
+# Hidden effect → Λ, number of cases per base and Λ, and the same for a reduced run.
 FULL: typing.Dict[str, typing.Tuple[typing.Tuple[int, ...], int]] = {
     "null": ((0,), 60), "single": ((25, 60, 150, 400), 18), "pair": ((150, 400), 6), "kinked": ((60, 150, 400), 4),
     "unusual": ((150, 400), 2), "rig": ((25, 60, 150, 400), 8)}

@@ -39,7 +39,7 @@ UNITS = {"time": "s", "pressure": "kPa", "outer_diameter": "mm", "axial_force": 
 NOISE = 0.01  # of the range of every channel
 BUILT = pathlib.Path(__file__).resolve().parents[1] / "build/release/bin/tunica"
 PROGRAM = os.environ.get("TUNICA", str(BUILT))  # another program: TUNICA=/path/to/tunica
-# Causes in the rig that do what a mistake with an amplitude does.
+# Causes in the rig with the same effect as a mistake with an amplitude.
 LOOK_ALIKES = {
     "displacement_offset": {"reference_length_error", "zeroed_at_preload", "force_offset"},
     "zeroed_at_preload": {"reference_length_error", "displacement_offset", "force_offset"},

@@ -11,7 +11,7 @@ file(RELATIVE_PATH TUNICA_PREFIX_FROM_PKGCONFIG /prefix/${CMAKE_INSTALL_LIBDIR}/
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/package)
 configure_package_config_file(cmake/tunicaConfig.cmake.in ${generated}/tunicaConfig.cmake
   INSTALL_DESTINATION ${TUNICA_CMAKE_INSTALL_DIR} PATH_VARS CMAKE_INSTALL_BINDIR TUNICA_PLUGIN_INSTALL_DIR)
-# Before 1.0 a minor release may change the SDK; what a plugin was built for is told by TUNICA_PLUGIN_API.
+# Before 1.0 a minor release may change the SDK; TUNICA_PLUGIN_API identifies the version that a plugin was built for.
 write_basic_package_version_file(${generated}/tunicaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 configure_file(cmake/tunica.pc.in ${generated}/tunica.pc @ONLY)
 
@@ -37,7 +37,8 @@ install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime
         PATTERN "build" EXCLUDE PATTERN "results" EXCLUDE PATTERN "out" EXCLUDE)
 install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime FILES_MATCHING PATTERN "*.json")
 
-# What a user runs, without tests and benchmarks. ./bootstrap run builds `first_result` before it and `product` after it.
+# The programs for users, without tests and benchmarks. ./bootstrap run builds `first_result` before it and `product`
+# after it.
 get_property(plugins GLOBAL PROPERTY TUNICA_PLUGINS)
 add_custom_target(first_result DEPENDS ${plugins})
 add_custom_target(product DEPENDS ${plugins})

@@ -28,7 +28,7 @@ if(TARGET tunica_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-tunica)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-  # The plugins come with the program; what is loaded and what loads them are of one build.
+  # The package contains program and plugins of one build.
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "tunica (= ${PROJECT_VERSION}), ${TUNICA_PYTHON_DEPENDS}, python3-numpy")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python package of tunica: runs, diagnoses, problems for scipy, own models")
 endif()

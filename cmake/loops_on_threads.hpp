@@ -37,7 +37,7 @@ class Crew {
     limit_.store(limits_.empty() ? otherwise : std::max<std::size_t>(*limits_.begin(), 1), std::memory_order_relaxed);
   }
   [[nodiscard]] std::size_t limit() const { return limit_.load(std::memory_order_relaxed); }
-  /// `wanted` threads, or as many as are left. Whoever takes them gives them back.
+  /// `wanted` threads, or as many as are left. The caller must return them.
   std::size_t take(std::size_t wanted) {
     const std::size_t most = limit() - 1;
     std::size_t busy = busy_.load(std::memory_order_relaxed), taken = 0;

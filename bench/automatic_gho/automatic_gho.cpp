@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The energy of plugins/models/gho twice more, with nothing derived by hand: as a sum of parts, each a law of one
-// invariant, and as one function of several invariants. What the convenience costs is measured against gho.
+// invariant, and as one function of several invariants. The cost of this convenience is measured against gho.
 #include <cmath>
 
 #include "tunica/models/arterial_fibres.hpp"

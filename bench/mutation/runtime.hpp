@@ -15,7 +15,7 @@
 
 namespace tunica_mutant {
 
-/// The mutant that is alive; 0: none; -1: what is reached is written down.
+/// The active mutant; 0: none; -1: reached mutants are recorded.
 inline int chosen() {
   const char* const text = std::getenv("TUNICA_MUTANT");
   if (!text) return 0;

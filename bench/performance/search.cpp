@@ -67,7 +67,7 @@ const assembly::Assembly& strips_by_es() {
   return assembly;
 }
 
-/// A calibration of two strips by `es` through the host. `points` keeps what was evaluated.
+/// A calibration of two strips by `es` through the host. `points` keeps the evaluated points.
 void calibrate(const assembly::Assembly& assembly, std::uint64_t seed, std::size_t threads,
                std::vector<double>* points) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -8,7 +8,7 @@
 
 namespace tunica::bench {
 
-/// What the floor of one strip reads and writes.
+/// The memory traffic of one strip's floor.
 struct StripMemory {
   std::vector<double> pulled, measured, lateral, residual, jacobian;
 

@@ -43,7 +43,7 @@ struct Deciding : ::testing::Test {
     budget.base.rms = 0.08;
     budget.tolerance.share = 0.02;
   }
-  /// The verdict, and what it rests on.
+  /// The verdict and its basis.
   std::pair<Verdict, std::vector<std::string>> of(std::vector<Contender> contenders) {
     budget.contenders = std::move(contenders);
     const Decision decision = decided(budget);
@@ -69,7 +69,7 @@ TEST_F(Deciding, WhatIsFarAheadAndSureLeads) {
   // Whether the misfit matters is another question.
   budget.base.rms = 0.01;
   expect({rig("gain", 0.9, 0.95)}, Verdict::leading, {"gain"});
-  // Within the tolerance little is left of any cause, so that the evidence has to decide.
+  // Within the tolerance every cause leaves little, so the evidence must decide.
   expect({rig("gain", 0.96, 0.12), rig("offset", 0.8, 0.85)}, Verdict::unknown, {});
   budget.base.rms = 0;
   expect({rig("gain", 0.9, 0.95)}, Verdict::unknown, {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a budget says of strips with a cause that is listed and a smooth misfit that is not.
+// The budget of strips with a listed cause and a smooth unlisted misfit.
 #include <cmath>
 
 #include <gmock/gmock.h>

@@ -36,7 +36,7 @@ struct Calibrating : Laboratory {
   mutable std::atomic<int> calls = 0;
 };
 
-/// What the searches of two outcomes have found, run by run.
+/// The results of the searches of two outcomes, run by run.
 inline std::vector<std::vector<double>> found_by(const calibration::Outcome& outcome) {
   std::vector<std::vector<double>> found;
   for (const auto& run : outcome.summary.runs) {

@@ -55,7 +55,7 @@ Optimizer::Outcome descend(Problem& problem) {
   return {true, "done"};
 }
 
-/// Data that a parabola explains to within a misfit, so that the optimum is no perfect fit.
+/// Data that a parabola does not fit exactly, so the optimum is not a perfect fit.
 class Guided : public testing::Test {
  protected:
   Guided() {

@@ -29,7 +29,7 @@ nlohmann::json documented(const experiment::Experiment& experiment) {
   return nlohmann::json::parse(experiment.input_json);
 }
 
-/// What the file says, with one of its values replaced.
+/// The file with one value replaced.
 nlohmann::json stated_but(const char* pointer, const nlohmann::json& value) {
   auto expected = documented(stated_experiment());
   expected[nlohmann::json::json_pointer(pointer)] = value;

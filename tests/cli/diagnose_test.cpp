@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `tunica diagnose` leaves behind, and what it does not.
+// The files that `tunica diagnose` leaves behind, and those that it does not.
 #include <chrono>
 #include <cmath>
 #include <random>

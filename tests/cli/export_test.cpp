@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a result folder to a material card, and what is refused on the way.
+// From a result folder to a material card, with all refusals.
 #include <filesystem>
 
 #include <gmock/gmock.h>

@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 namespace {
 const trial::Folder folder;
 
-/// Read from the help itself, so that a verb that is added is tested too.
+/// Read from the help itself, so new verbs are tested too.
 std::vector<std::string> verbs() {
   const auto help = trial::tunica({"--help"}, folder.path()).out;
   std::vector<std::string> found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Input that somebody made to do harm, or that nobody thought of: one message, exit code 2, and in time.
+// Malicious or unforeseen input: it gives one message and exit code 2, in time.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -9,7 +9,7 @@
 
 namespace tunica::trial {
 
-/// How a process ended, and what it said.
+/// How a process ended, and its output.
 struct Ended {
   int code = -1;  ///< exit code, or 128 + signal
   std::string out, err;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where searches begin, and bounds that nobody chose.
+// The starting points of searches, and bounds that are only defaults.
 #include <algorithm>
 #include <set>
 #include <sstream>

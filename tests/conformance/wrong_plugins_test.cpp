@@ -44,7 +44,7 @@ Names failed(const std::string& plugin, const std::string& name = "", std::vecto
   return names;
 }
 
-/// What the check says of one property of a thing.
+/// The result of the check for one property of an object.
 std::string words(const std::string& plugin, const std::string& name, const std::string& property) {
   const auto all = nlohmann::json::parse(check(wrong(plugin), {"--only", name, "--json"}).out);
   for (const auto& one : all["findings"])

@@ -16,7 +16,7 @@
 namespace tunica::diagnosis::alarm_test {
 namespace {
 
-/// Alternating, so that no smooth shape shows it.
+/// Alternating, so no smooth shape detects it.
 Eigen::VectorXd rough(double height) {
   Eigen::VectorXd shape(12);
   for (Eigen::Index i = 0; i < 12; ++i) shape[i] = i % 2 == 0 ? height : -height;
@@ -77,7 +77,7 @@ TEST(RefitsOfSimulatedData, AreThoseOfTheDraws) {
   }
 }
 
-/// A draw that cannot be fitted says nothing against the measured data.
+/// A draw that cannot be fitted is no evidence against the measured data.
 TEST(RefitsOfSimulatedData, CountAsWorseWhereTheyFail) {
   const Rows rows(0);
   fakes::set_behaviour([](double, std::span<double>, Status& status) { status = Status::failed("it tears"); });

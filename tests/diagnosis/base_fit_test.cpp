@@ -29,7 +29,7 @@ struct StressAt {
 };
 using StressOf = std::function<std::optional<StressAt>(double a)>;
 
-/// The same stress everywhere, whatever the deformation.
+/// A constant stress, whatever the deformation.
 class EvenStress final : public Model {
  public:
   EvenStress(StressOf stress, double max) : stress_(std::move(stress)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said to explain the misfit, from explanations that were fitted.
+// The claimed explanation of the misfit, from fitted explanations.
 #include "diagnosis/naming/claims.hpp"
 
 #include <cmath>

@@ -11,7 +11,7 @@
 
 namespace blind::score::trial {
 
-/// A case as scored: what is hidden, and what was said of it.
+/// A scored case: the hidden effect and the verdict on it.
 inline Case single(const std::string& id, double lambda, const std::string& verdict,
                    const std::vector<std::string>& said) {
   Case one;

@@ -98,7 +98,7 @@ void end_in_a_thread(const End& end) {
   std::this_thread::sleep_for(std::chrono::seconds(20));
 }
 
-/// Junk in memory that this process shares with another one, found as anybody can find it.
+/// Junk in memory that this process shares with another; any code can find this memory.
 void spoil_shared_memory() {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {

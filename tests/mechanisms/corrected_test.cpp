@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an error of an abscissa asks of the test inside, and where its amplitude stands for itself.
+// The calls that an error of an abscissa makes to the inner test, and where its amplitude acts alone.
 #include <cmath>
 
 #include <gmock/gmock.h>

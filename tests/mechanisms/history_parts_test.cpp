@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of a model with memory are, and who may rebuild an energy from them.
+// The parts of a model with memory, and the mechanisms that may rebuild an energy from them.
 #include <gmock/gmock.h>
 
 #include "deformations.hpp"

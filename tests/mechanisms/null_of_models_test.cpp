@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every mechanism that acts on a model promises: at its null it is the bare model, and what it predicts is smooth
-// there on its admissible side. One seed each, so the outcome is deterministic, and was a pass when this was committed.
+// The promises of every mechanism that acts on a model: at its null it is the bare model, and its predictions are
+// smooth there on its admissible side. One seed each, so the outcome is deterministic, and was a pass when this was
+// committed.
 #include <cmath>
 
 #include <gtest/gtest.h>

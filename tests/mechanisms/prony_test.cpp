@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Branches side by side, a Prony series: what each of them adds to the elastic stress, alone, adds up.
+// Parallel branches (a Prony series): their single contributions to the elastic stress add up.
 #include <cmath>
 
 #include <gtest/gtest.h>

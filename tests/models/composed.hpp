@@ -16,7 +16,7 @@ inline std::unique_ptr<Model> composed(const std::string& terms) {
   return make_model("composed", options);
 }
 
-/// What is said to a list of terms that is refused; empty where it is taken.
+/// The message that refuses a list of terms; empty if the list is accepted.
 inline std::string refusal(const std::string& terms) {
   return message_of<InputError>([&] { (void)composed(terms); });
 }

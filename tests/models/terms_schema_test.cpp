@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What editors are told of terms, against what a list of terms may say.
+// The schema of terms for editors, compared with the accepted lists of terms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -168,7 +168,7 @@ TEST_P(OptimizerConformance, StopsWhenTheTargetIsReached) {
   EXPECT_NE(words.find("stopped"), std::string::npos) << words;
 }
 
-/// The optima that the checks are relative to are those of the functions: nobody does better.
+/// The reference optima are those of the functions, so no optimiser can do better.
 TEST_P(OptimizerConformance, FindsNothingBetterThanTheOptima) {
   for (const Function& function : {half_sphere(), hock_schittkowski_65(), rosenbrock_in_disc(), limited_curve()}) {
     FunctionProblem problem(function, {.budget = 5000});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two random walks: one that leaves the box, and one that nobody can repeat.
+// Two random walks: one leaves the box, and the other is not reproducible.
 #include <algorithm>
 #include <random>
 

@@ -10,7 +10,7 @@
 
 namespace blind {
 
-/// What is done to the specimen:
+/// The loading of the specimen:
 ///   artery  two cyclic strips and three inflations at different axial stretches
 ///   sheets  planar biaxial extension at five ratios
 ///   rubber  a strip, equibiaxial extension and pure shear

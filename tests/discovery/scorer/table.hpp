@@ -10,7 +10,7 @@
 
 namespace blind::score {
 
-/// Everything that is told.
+/// All verdicts.
 struct Score {
   std::vector<Figure> figures, classes, times;
   std::vector<MistakeRow> mistakes;
