@@ -32,7 +32,7 @@ namespace tunica::calibration {
 
 namespace {
 
-/// What a run leaves that ends before its first checkpoint: nothing that cost an evaluation.
+/// Removes the files of a run that ends before its first checkpoint: they contain no evaluation.
 bool holds_a_beginning(const std::filesystem::path& folder) {
   return std::ranges::all_of(std::filesystem::directory_iterator(folder), [](const auto& entry) {
     const std::string name = entry.path().filename().string();
@@ -104,7 +104,7 @@ void write_tables(const execution::Plan& plan, const std::vector<execution::RunR
   comparison::write_study_tables(directory, plan, results, summary);
 }
 
-/// A file that is gone when it is no longer needed, after an error too.
+/// A temporary file that is always removed, even after an error.
 struct TemporaryFile {
   const std::filesystem::path path;
 
@@ -126,7 +126,7 @@ Certified certified(const std::filesystem::path& directory, const Options& optio
   return options.certify(directory, points.path);
 }
 
-/// The fresh process works beside the tables, where there is a thread for it.
+/// The fresh process runs while the tables are written, if a thread is free.
 void write_tables_and_certify(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
                               const std::filesystem::path& directory, const Options& options,
                               comparison::Summary& summary) {

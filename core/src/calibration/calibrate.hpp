@@ -16,13 +16,13 @@
 /// Everything that `tunica run` does, as a function.
 namespace tunica::calibration {
 
-/// What a process that has seen nothing of the search answers, see comparison/certify.hpp.
+/// The answer of a fresh process that did not take part in the search, see comparison/certify.hpp.
 struct Certified {
   std::string answer;   ///< what comparison::certify() printed there; empty without
   std::string missing;  ///< why there is no answer
 };
 
-/// What is about to be searched, and where its results go.
+/// The coming search, and the folder of its results.
 struct Start {
   const execution::Plan& plan;
   const std::filesystem::path& directory;

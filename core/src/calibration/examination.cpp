@@ -98,7 +98,7 @@ std::vector<TestPath> paths_of(const experiment::Experiment& experiment, const p
   return paths;
 }
 
-/// What was made of the files of testing machines.
+/// The interpretation of the files of testing machines.
 std::vector<UnderstoodData> understood_of(const experiment::Experiment& experiment,
                                           const plugins::Catalogue& catalogue) {
   std::vector<UnderstoodData> found;

@@ -12,14 +12,14 @@
 /// Everything that `tunica check` does, as a function.
 namespace tunica::calibration {
 
-/// What a test finds of itself by other means.
+/// A test's comparison with an independent solution.
 struct OtherMeans {
   std::string test;
   std::vector<Agreement> found = {};
   Status status = {};
 };
 
-/// Whether a test and its other means differ by no more than was expected.
+/// Whether a test and the independent solution agree within the expected difference.
 bool agrees(const Agreement& one);
 
 /// What one evaluation at the initial point tells of a problem.
@@ -37,7 +37,7 @@ struct InitialPoint {
   [[nodiscard]] bool good() const;
 };
 
-/// The path that a test takes in loading order, for whoever has to agree that it is one.
+/// The loading path of a test, for the user to confirm.
 struct TestPath {
   std::string test;
   bool ordered = false;  ///< said so, or by time; false: the order of the file is shown
@@ -53,7 +53,7 @@ struct PosedProblem {
   InitialPoint initial;
 };
 
-/// What was made of the file of a testing machine, a line a column.
+/// The interpretation of a testing machine's file, one line per column.
 struct UnderstoodData {
   std::string test;
   std::vector<std::string> lines;
@@ -79,7 +79,7 @@ struct Examination {
 Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                     bool run_programs = false, const std::function<void(const std::string&)>& told = {});
 
-/// The experiment with the option "offline" of every test that has it set: making such a test asks no server.
+/// The experiment with the option "offline" set in every test that has it: making such a test contacts no server.
 experiment::Experiment offline(experiment::Experiment experiment);
 
 /// "tunica check FILE", and the option that it needs to evaluate a test that starts a program or asks a server.

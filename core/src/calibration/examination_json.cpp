@@ -13,7 +13,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// "ok", or what is the matter.
+/// "ok", or the problem.
 json status_json(const Status& status) {
   switch (status.kind()) {
     case Status::Kind::ok:

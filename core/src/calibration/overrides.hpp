@@ -10,7 +10,7 @@
 
 namespace tunica::calibration {
 
-/// What a command line asks for in place of the file.
+/// The overrides of a command line over the file.
 struct Overrides {
   std::optional<std::uint64_t> seed = {};
   std::vector<std::string> profiles = {};  ///< names of parameters, or "all"; empty = as the file says

@@ -20,7 +20,7 @@ namespace tunica::cluster {
 
 namespace {
 
-/// Two pipes, emptied side by side: a program that fills one of them while nobody reads it would wait for ever.
+/// Two pipes, emptied in parallel: a program that fills an unread pipe would wait for ever.
 struct Pipes {
   std::array<int, 2> read{-1, -1}, write{-1, -1};
 

@@ -8,7 +8,7 @@
 /// A queue of a computing centre that runs shards of a cohort: Slurm. docs/cohort_cluster.md.
 namespace tunica::cluster {
 
-/// How a program ended, and what it said.
+/// How a program ended, and its output.
 struct Ended {
   int code = -1;  ///< its exit code, 128 + signal, or 127 where it could not be started
   std::string out, err;

@@ -16,7 +16,7 @@ std::size_t rounds(std::size_t specimens, unsigned threads) { return (specimens 
 
 std::size_t minutes_of(double seconds) { return static_cast<std::size_t>(std::ceil(seconds / 60)); }
 
-/// In steps of 64 MiB, so that two pilots mostly ask for the same.
+/// In steps of 64 MiB: two pilots then usually request the same.
 std::size_t mebibytes_of(double bytes) {
   return static_cast<std::size_t>(std::ceil(bytes / bytes_of_mebibyte / 64)) * 64;
 }

@@ -6,7 +6,7 @@
 
 namespace tunica::cluster {
 
-/// What a few specimens, fitted as a shard fits them, took here.
+/// Time and memory of a few specimens, fitted here as in a shard.
 struct Pilot {
   std::size_t specimens = 0;
   double mean_seconds = 0, longest_seconds = 0;  ///< of one specimen, on one of the threads
@@ -14,7 +14,7 @@ struct Pilot {
   std::size_t peak_bytes = 0;
 };
 
-/// What a job of the queue may take.
+/// The limits of a job in the queue.
 struct Limits {
   std::size_t minutes = 0;
   std::size_t mebibytes = 0;

@@ -23,7 +23,7 @@ inline constexpr text::Codes<Standing, 4> standing_codes{{{Standing::done, "done
                                                           {Standing::waiting, "waiting"},
                                                           {Standing::stopped, "stopped"}}};
 
-/// One shard: what its specimens say, and what the queue says.
+/// One shard: the state of its specimens and its state in the queue.
 struct ShardView {
   cohort::ShareProgress progress;
   Standing standing = Standing::stopped;

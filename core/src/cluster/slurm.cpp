@@ -14,7 +14,7 @@ namespace tunica::cluster::slurm {
 
 namespace {
 
-/// Every state that is no end, from `man squeue`, "JOB STATE CODES".
+/// Every state that is not final, from `man squeue`, "JOB STATE CODES".
 constexpr text::Codes<Phase, 16> living_states{{{Phase::waiting, "PENDING"},
                                                 {Phase::waiting, "CONFIGURING"},
                                                 {Phase::waiting, "REQUEUED"},
@@ -153,7 +153,7 @@ std::vector<std::string> words_of(const Order& order) {
                                  "--output=" + no_pattern(order.folder.string()) + "/" + order.log};
   if (!order.partition.empty()) words.push_back("--partition=" + order.partition);
   if (!order.array.empty()) words.push_back("--array=" + order.array);
-  // afterok would never start after one task that failed. The merge says itself what is missing.
+  // afterok would never start after a failed task. The merge itself reports missing specimens.
   if (!order.after.empty()) words.push_back("--dependency=afterany:" + order.after);
   words.push_back(order.script.string());
   return words;

@@ -29,7 +29,7 @@ struct Task {
   Phase phase = Phase::waiting;
 
   [[nodiscard]] bool alive() const { return phase == Phase::waiting || phase == Phase::running; }
-  /// It waits until somebody releases it: by a user, or by Slurm after a start that failed.
+  /// It is held until it is released: by a user, or by Slurm after a failed start.
   [[nodiscard]] bool held() const;
 };
 
@@ -49,7 +49,7 @@ std::vector<Task> accounts(const std::vector<std::string>& jobs);
 /// The largest index of a job array, MaxArraySize − 1; none where Slurm does not answer.
 std::optional<std::size_t> largest_index();
 
-/// What a job asks for.
+/// The resources that a job requests.
 struct Order {
   std::string name, array;  ///< array: "1-7", empty for a plain job
   std::string after;        ///< numbers of jobs, joined by ':', after whose end it starts, however they end
@@ -66,7 +66,7 @@ std::vector<std::string> words_of(const Order& order);
 /// Submits, and returns the number of the job. Throws InputError with what sbatch said.
 std::string submit(const Order& order);
 
-/// Takes a job off the queue. One that has ended meanwhile is no error.
+/// Cancels a job. A job that has already ended is not an error.
 void cancel(const std::string& job);
 
 }  // namespace tunica::cluster::slurm

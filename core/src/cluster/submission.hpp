@@ -11,7 +11,7 @@
 
 namespace tunica::cluster {
 
-/// What a cohort asks of the queue.
+/// The request of a cohort to the queue.
 struct Wishes {
   std::size_t shards = 1;
   unsigned threads = 1;
@@ -42,7 +42,7 @@ std::filesystem::path shard_log(const std::filesystem::path& results, std::size_
 /// A name that no other folder's jobs have: tunica-<cohort>-<8 digits of the folder's hash>.
 std::string job_name(const std::string& cohort, const std::filesystem::path& results);
 
-/// Nothing where nobody has submitted. Throws InputError where the file is not one of ours.
+/// None without a submission. Throws InputError if the file is not a submission file.
 std::optional<Submission> stored_submission(const std::filesystem::path& results);
 void store(const Submission& submission, const std::filesystem::path& results);
 

@@ -34,7 +34,7 @@ DiagnosisStudy study_diagnosis(const Specification& cohort, const SpecimenTable&
     return study;
   }
   study.verdict = cohort_diagnosis::combine(evidence.specimens, factors_of(table, evidence), {study.alpha});
-  // The verdict has its specimens in an order of its own.
+  // The verdict lists its specimens in another order.
   std::map<std::string, std::size_t> position;
   for (const std::size_t k : evidence.positions) position[table.specimens[k].id] = k;
   for (const std::string& id : study.verdict.specimens) study.positions.push_back(position.at(id));

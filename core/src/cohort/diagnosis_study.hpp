@@ -11,7 +11,7 @@
 
 namespace tunica::cohort {
 
-/// What the simulation gets wrong in all specimens, or in one group of them: docs/cohort_diagnosis.md.
+/// Errors of the simulation in all specimens, or in one group of them: docs/cohort_diagnosis.md.
 struct DiagnosisStudy {
   cohort_diagnosis::CohortVerdict verdict;
   double alpha = 0.05;
@@ -41,7 +41,7 @@ nlohmann::ordered_json diagnosis_json(const SpecimenTable& table, const Diagnosi
 /// the last in natural logarithms, over nothing.
 std::string mechanism_table(const SpecimenTable& table, const DiagnosisStudy& study);
 
-/// What the program prints of it, and the report says: the verdict first, a clause or a sentence each.
+/// Its text for terminal and report: the verdict first, a clause or a sentence each.
 std::vector<std::string> diagnosis_sentences(const DiagnosisStudy& study);
 std::string diagnosis_words(const SpecimenTable& table, const DiagnosisStudy& study);
 

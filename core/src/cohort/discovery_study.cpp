@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the extended experiments of the specimens say of one parameter: the widest bounds, and the middle value.
+/// One parameter over the extended experiments of the specimens: the widest bounds and the median value.
 void merge(const std::vector<Json>& settings, Json& merged) {
   std::vector<double> values;
   for (const Json& one : settings) {

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A file name of the experiment, as a file in another folder has to say it.
+/// A file name of the experiment, as written from another folder.
 std::string moved(const std::string& name, const std::filesystem::path& from) {
   const std::filesystem::path path(name);
   return path.is_absolute() ? name

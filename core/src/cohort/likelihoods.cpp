@@ -16,7 +16,7 @@ namespace tunica::cohort {
 
 namespace {
 
-/// What the expansions share; each specimen writes its own entries only.
+/// The shared state of the expansions; each specimen writes only its own entries.
 struct Shared {
   std::map<std::string, std::size_t> channel;  ///< number of each name
   std::size_t count = 0;                       ///< channels, priors the last
@@ -147,7 +147,7 @@ void add_expansions(Likelihoods& likelihoods, NoisePool noise, population::Cohor
     });
     return found;
   };
-  // The correction of means asks for hundreds of points a specimen: too many where a simulation takes seconds.
+  // The correction of means needs hundreds of points per specimen: too many if a simulation takes seconds.
   if (costly) return;
   cohort.misfits = [&likelihoods, shared](std::size_t i, const Eigen::MatrixXd& points,
                                           const std::vector<double>& variances) {

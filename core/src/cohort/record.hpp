@@ -66,7 +66,7 @@ struct Record {
 
 std::string to_json(const Record& record);
 
-/// Nothing where the text is no record: cut off, changed in any digit, or of another format.
+/// None if the text is not a record: truncated, changed in any digit, or of another format.
 std::optional<Record> record_of(const std::string& json);
 
 }  // namespace tunica::cohort

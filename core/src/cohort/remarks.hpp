@@ -9,7 +9,7 @@
 
 namespace tunica::cohort {
 
-/// What a warning about a cohort is about. Scripts and the report decide by it, so that the sentences may change.
+/// The kind of a warning about a cohort. Scripts and the report use it, so the sentences may change.
 enum class RemarkKind {
   not_fitted,
   factor_not_compared,

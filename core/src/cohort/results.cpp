@@ -20,7 +20,7 @@ void write_results(const Opened& opened, const Collection& found, const Study& s
   execution::write_atomically(results / "population.csv", population_table(study));
   execution::write_atomically(results / "shrunken.csv", shrunken_table(opened.table, study));
   write_bands(results, study);
-  // What an earlier diagnosis left there, and this one would not write over.
+  // Files of an earlier diagnosis that this one would not overwrite.
   for (const char* name : {"mechanisms.csv", "extended.json", "extended_cohort.json"}) {
     std::error_code error;
     std::filesystem::remove(results / name, error);

@@ -25,7 +25,7 @@ struct Opened {
   Opened(const std::filesystem::path& file, bool diagnose);
 };
 
-/// Above so many specimens a report for each is made only where somebody asks for it: a page is half a megabyte.
+/// Above this number of specimens, individual reports are made only on request: a page is half a megabyte.
 constexpr std::size_t most_reports = 50;
 
 /// Studies all specimens together and writes result.json, tables and report.html into `results`, over those of an

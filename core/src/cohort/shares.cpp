@@ -28,7 +28,7 @@ ShareOutcome fit_share(const Specification& cohort, const SpecimenTable& table, 
       [&](std::size_t k) {
         if (failure.any()) return;
         if (stopped()) return void(interrupted = true);
-        // A search runs its own loops side by side; a thread that waits for them must not begin another specimen.
+        // A search runs parallel loops; a thread that waits for them must not begin another specimen.
         tbb::this_task_arena::isolate([&] {
           failure.guard([&] {
             const auto record = fit(cohort, pattern, table.specimens[mine[k]], catalogue, settings);

@@ -22,7 +22,7 @@ Enumeration coded(const Node& node, const text::Codes<Enumeration, count>& codes
   return *text::value_of(codes, node.one_of(names, noun));
 }
 
-/// A cell of the table is text; a number here is one that somebody did not put in quotes.
+/// A cell of the table is text; a number here only lacks its quotes.
 std::string cell_text(const Node& node) {
   return node.is_number() || node.is_flag() ? node.dumped() : node.text("a text or a number");
 }

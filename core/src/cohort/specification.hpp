@@ -78,7 +78,7 @@ struct Specification {
   std::string text;                         ///< the file as it stands, for the results folder
 };
 
-/// Throws InputError: what was found, where, and what is expected.
+/// Throws InputError with the found text, its place and the expected form.
 Specification read_specification(const std::filesystem::path& file);
 
 }  // namespace tunica::cohort

@@ -37,7 +37,7 @@ bool is_wanted(const SpecimenTable& table, const Specification& cohort, const st
   return std::all_of(met.begin(), met.end(), [](const auto& entry) { return entry.second; });
 }
 
-/// Ids that stand twice: nobody can say which row is meant.
+/// Duplicate ids, which do not identify a row.
 void refuse_duplicates(SpecimenTable& table) {
   std::map<std::string, std::vector<std::string>> lines;
   for (const Specimen& specimen : table.specimens) lines[specimen.id].push_back(fmt::format("{}", specimen.line));

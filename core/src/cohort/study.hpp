@@ -37,7 +37,7 @@ struct ReadingStudy {
   std::vector<std::pair<std::size_t, std::string>> missing;  ///< and those that do not, with the reason
 };
 
-/// All readings, and what they say of all specimens together.
+/// All readings, and their statistics over all specimens.
 struct ReadingsStudy {
   std::vector<ReadingStudy> readings;
   std::optional<Analysis> analysis;  ///< of those that two specimens have at least

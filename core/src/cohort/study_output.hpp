@@ -26,7 +26,7 @@ std::string shrunken_table(const SpecimenTable& table, const Study& study);
 /// band_<test>.csv: run, group, channel, <abscissa>, mean, lower, upper, one row a row of the group's first specimen.
 void write_bands(const std::filesystem::path& folder, const Study& study);
 
-/// What the program prints of the population.
+/// The printed text about the population.
 std::string study_words(const SpecimenTable& table, const Study& study);
 
 }  // namespace tunica::cohort

@@ -25,7 +25,7 @@ std::string parameter_table(const SpecimenTable& table, const Collection& found)
 ///   specimen, <column of the table> …, folder, run, outcome, objective, least_r2, misfit, stable, warnings, reason
 std::string specimen_table(const SpecimenTable& table, const Collection& found);
 
-/// What the program prints: how many were fitted, and each that was not with its reason.
+/// The printed text: the number of fitted specimens, and each unfitted one with its reason.
 std::string outcome_words(const SpecimenTable& table, const Collection& found);
 
 }  // namespace tunica::cohort

@@ -40,7 +40,7 @@ struct Explanation {
   bool in_set = false;
 };
 
-/// What a factor has to do with the cause.
+/// The relation of a factor to the cause.
 struct LevelEvidence {
   std::string level;
   std::size_t specimens = 0;
@@ -57,7 +57,7 @@ struct FactorEvidence {
 /// "p = 0.003"; very small ones are said to be so.
 std::string p_words(double p);
 
-/// Why a specimen does not go with the verdict.
+/// Why a specimen contradicts the verdict.
 enum class ContradictionKind {
   not_seen,      ///< the others say that it should show the effect, and it does not
   other_size,    ///< it shows it, of a size or side that the others do not have
@@ -72,7 +72,7 @@ struct Contradiction {
   std::string text;  ///< one clause, without a full stop
 };
 
-/// |r|² of one specimen without the cause, with an amplitude of its own, and with that of the others.
+/// |r|² of one specimen without the cause, with its own amplitude, and with that of the others.
 struct LeftOut {
   std::string specimen;
   std::size_t rows = 0;

@@ -136,7 +136,8 @@ class Combination {
     return all;
   }
 
-  /// A pair with the single mechanism that leads is no other explanation, only more of it than the data ask for.
+  /// A pair that contains the leading single mechanism is not another explanation; it only adds more than the data
+  /// require.
   static void leave_out_additions(std::vector<Candidate>& all) {
     if (all.front().best.size() > 1) return;
     const std::string leader = all.front().explanation.ids.front();
@@ -216,7 +217,7 @@ class Combination {
     }
   }
 
-  /// What is a matter of the data: a single row, or one specimen that carries it all.
+  /// Signs of a fault in the data: a single row, or one specimen, carries the whole effect.
   void suspect(const Candidate& best, CohortVerdict& found) const {
     if (best.best.size() > 1) return;
     const Hypothesis& cause = hypotheses_[best.best.front()];

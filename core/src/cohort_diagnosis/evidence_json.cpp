@@ -17,7 +17,7 @@ using diagnosis::Verdict;
 
 constexpr int record_format = 2;
 
-/// What is wrong with a record, for the sentence that says so.
+/// The fault of a record, for the message.
 struct NoRecord : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

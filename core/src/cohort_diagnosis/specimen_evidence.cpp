@@ -72,7 +72,7 @@ class Gathering {
     for (std::size_t k = 0; k < hypotheses.directions.size(); ++k) {
       const Direction& direction = hypotheses.directions[k];
       const diagnosis::Hypothesis& hypothesis = hypotheses.hypothesis(k);
-      // Specimens of a cohort share their hypotheses, and the pace of a test is its own: without a clock it is slow.
+      // Specimens of a cohort share hypotheses, but not loading rates: a test without a clock counts as slow.
       if (hypothesis.at_large || hypothesis.addition.pace) continue;
       if (direction.row && std::find(rows.begin(), rows.end(), k) == rows.end()) continue;
       Sketch& sketch = sketch_of(all, direction.candidate, hypothesis);
@@ -229,7 +229,7 @@ std::optional<std::pair<double, double>> deviation_of(const diagnosis::Evidence&
   return std::nullopt;
 }
 
-/// Rows that are left out as gross errors are outliers still. No fit sees them, so that they look like nothing else.
+/// Rows that are left out as gross errors are still outliers. No fit uses them, so they resemble no other mechanism.
 void add_rows_left_out(const Analysis& analysis, std::vector<Sketch>& sketches) {
   std::vector<Sketch> rows;
   for (const diagnosis::GrossRow& row : analysis.evidence.gross)
@@ -314,7 +314,7 @@ void note_what_is_left(Sketch& sketch, const Eigen::MatrixXd& all, SpecimenEvide
   }
 }
 
-/// What the specimen's own diagnosis says.
+/// The verdict of the specimen's own diagnosis.
 void own_answer(const diagnosis::Diagnosis& diagnosis, SpecimenEvidence& found) {
   const diagnosis::Explanation& explanation = diagnosis.explanation;
   found.p_value = diagnosis.analysis.alarm.p();
@@ -370,7 +370,7 @@ SpecimenEvidence evidence_of(std::string id, const experiment::Experiment& exper
 
 SpecimenEvidence evidence_of(std::string id, const experiment::Experiment& experiment,
                              const diagnosis::Request& request, const plugins::Catalogue& catalogue) {
-  // What the file of one specimen says and is not so is no evidence on the tissue.
+  // A mistake in the file of one specimen is no evidence about the tissue.
   diagnosis::Request physical = request;
   std::erase(physical.groups, "file");
   return evidence_of(std::move(id), experiment, diagnosis::diagnose(experiment, physical, catalogue), catalogue);

@@ -9,7 +9,7 @@
 #include "cohort_diagnosis/profile.hpp"
 #include "diagnosis/diagnosis.hpp"
 
-/// What several specimens together say of what the simulation gets wrong: docs/cohort_diagnosis.md.
+/// The combined evidence of several specimens about errors of the simulation: docs/cohort_diagnosis.md.
 namespace tunica::cohort_diagnosis {
 
 /// Cosines between unit vectors, in hundred-thousandths: a triangle by rows, without its diagonal.

@@ -39,7 +39,7 @@ const RunSummary* lower_run(const execution::Plan& plan, const std::vector<RunSu
   return lowest;
 }
 
-/// A diagnosis fits without constraints: what they alone do to a fit is not for it to explain.
+/// A diagnosis fits without constraints, so it does not explain a misfit that only constraints cause.
 std::string diagnosis_advised(const execution::Plan& plan, std::size_t own) {
   const std::string command = fmt::format("tunica diagnose {}", plan.experiment->file.filename().string());
   const auto& entry = *plan.runs[own].entry;

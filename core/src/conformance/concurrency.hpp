@@ -7,7 +7,7 @@
 
 namespace tunica::conformance {
 
-/// What became of threads that made the same calls side by side.
+/// The outcome of threads that made the same calls in parallel.
 struct Race {
   bool lost = false;      ///< some call answered otherwise than alone
   std::size_t input = 0;  ///< which

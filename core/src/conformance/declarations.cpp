@@ -23,7 +23,7 @@ bool plain(const std::string& name) {
          std::isalpha(static_cast<unsigned char>(name.front()));
 }
 
-/// What is wrong with an option; empty = nothing.
+/// The fault of an option; empty = none.
 std::string flaw_of(const Option& option) {
   using Kind = Option::Kind;
   const std::string what = fmt::format("the option '{}'", option.name);

@@ -13,7 +13,7 @@
 namespace tunica::conformance {
 namespace {
 
-/// Numbers on each side that nobody may touch.
+/// Guard numbers on each side that no call may change.
 constexpr std::size_t guard_size = 32;
 /// NaNs with the quiet bit clear. Arithmetic with one sets it and keeps the payload.
 constexpr std::uint64_t quiet = 0x0008'0000'0000'0000, guard = 0x7ff4'7e57'0000'0001, unwritten = 0x7ff4'7e57'0000'0002;

@@ -29,7 +29,7 @@ extern "C" void __gcov_dump();
 namespace tunica::conformance {
 namespace {
 
-// Infinity, which an error may be, is no number in JSON.
+// An error may be infinite, but JSON has no infinity.
 nlohmann::json number(double value) { return fmt::format("{:.17g}", value); }
 // std::stod throws where a number is subnormal.
 double number(const nlohmann::json& text) { return std::strtod(text.get_ref<const std::string&>().c_str(), nullptr); }

@@ -16,7 +16,7 @@ struct Job {
 };
 using Jobs = std::vector<Job>;
 
-/// What the jobs need to know; lives as long as they do.
+/// The inputs of the jobs; it outlives them.
 struct CheckContext {
   const plugins::Catalogue& catalogue;
   const CheckSettings& settings;

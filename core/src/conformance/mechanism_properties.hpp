@@ -20,7 +20,7 @@
 /// what it does. What each means for an author: docs/plugin-check.md.
 namespace tunica::conformance {
 
-/// An amplitude that is no longer the null, and does nothing that rounding would not do.
+/// An amplitude off the null whose effect is no larger than rounding.
 inline double next_to_the_null(const MechanismFactory& mechanism) {
   return mechanism.null +
          std::max(1e-15 * (mechanism.plausible_max - mechanism.null), 1e-15 * std::abs(mechanism.null));

@@ -149,7 +149,8 @@ Verdict parameter_derivatives_match_differences(const Model& model, std::uint64_
             return std::vector<double>(stress.begin(), stress.end());
           },
           std::min(1e-2 * size, room)));
-      // What a change of the parameter by its own size would not do to a millionth of the stress is nothing.
+      // A derivative is negligible if a change of the parameter by its own size changes the stress by less than a
+      // millionth.
       scales.push_back(scale_of(std::span(at.stress_dp).subspan(6 * j, 6), 1e-6 * scale_of(at.stress) / size));
       for (const Difference& slope : slopes.back()) scales[j] = std::max(scales[j], std::abs(slope.value));
       for (const Difference& slope : slopes.back())

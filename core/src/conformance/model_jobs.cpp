@@ -37,7 +37,7 @@ void add_choices(Jobs& jobs, Finding head, const std::vector<Option>& declared, 
   const std::size_t place = jobs.size();
   const std::string what = "each word that an option may have with what is made with it";
   for (const Choices& choices : all) {
-    // In a process of its own first: what a wrong factory does is not known yet.
+    // First in a separate process, because a wrong factory may do anything.
     Verdict able = isolated(
         [&]() -> Verdict {
           try {
@@ -69,7 +69,7 @@ void add_choices(Jobs& jobs, Finding head, const std::vector<Option>& declared, 
   jobs.insert(jobs.begin() + static_cast<std::ptrdiff_t>(place), std::move(about.front()));
 }
 
-/// What an optimiser promises whatever its options; how well it finds optima is another matter.
+/// The promises of an optimiser under any options; the quality of its optima is tested separately.
 bool is_of_conduct(const OptimizerProperty& property) {
   constexpr std::array all{evaluates_once_when_nothing_is_free,
                            keeps_the_budget,
@@ -147,7 +147,7 @@ Jobs optimizer_jobs(const std::string& type, const CheckContext& context) {
   };
   std::vector<OptimizerProperty> properties = optimizer_properties();
   std::erase_if(properties, [](const OptimizerProperty& one) { return !is_of_conduct(one); });
-  // Each word by itself: a search is longer than a call of a model.
+  // Each choice separately, because a search takes longer than a call of a model.
   add_choices(jobs, head, entry.factory.options, 0, context, make, [&](const Finding& with, const Choices& choices) {
     add_properties(jobs, with, properties, context.settings.seed, [make, choices](const auto& check) {
       return check(Candidate{[make, choices] { return make(choices); }});

@@ -41,7 +41,7 @@ bool couples_fibres_and_normal(const Model& model) {
   });
 }
 
-/// Whether W takes no notice of which axis is stretched how far: true of every isotropic material.
+/// Whether W is unchanged by a permutation of the axes, as for every isotropic material.
 bool axes_are_alike(const Model& model, std::uint64_t seed) {
   if (couples_fibres_and_normal(model)) return false;
   constexpr std::array<std::array<std::size_t, 3>, 5> orders{{{0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a model does to the memory that it is handed.
+// The effects of a model on the memory of its caller.
 #include <array>
 #include <bit>
 #include <stdexcept>

@@ -13,7 +13,7 @@
 /// The properties every Optimizer must have. What each means for an author: docs/plugin-check.md.
 namespace tunica::conformance {
 
-/// An optimiser, and what is expected of it.
+/// An optimiser and its expected properties.
 struct Candidate {
   std::function<std::unique_ptr<Optimizer>()> make;
   std::uint64_t budget = 60000;  ///< evaluations that suffice for each of the standard functions

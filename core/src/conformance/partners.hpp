@@ -9,7 +9,7 @@
 #include "tunica/model.hpp"
 #include "tunica/options.hpp"
 
-/// What a plugin is checked with: materials that are beyond doubt, and options as somebody would give them.
+/// The partners in the check of a plugin: reliable materials, and realistic options.
 namespace tunica::conformance {
 
 /// A material and parameters at which tests are simulated.

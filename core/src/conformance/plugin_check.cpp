@@ -21,7 +21,7 @@ std::vector<std::string> names_of(const Entries& entries) {
   return names;
 }
 
-/// Leaves what is asked for; throws for a name that is not there.
+/// Keeps the requested items; throws for an unknown name.
 Jobs chosen(Jobs all, const std::vector<std::string>& only) {
   if (only.empty()) return all;
   std::vector<std::string> known;

@@ -16,7 +16,7 @@ inline std::size_t size_of(const Simulation& s) { return s.test.rows().count * s
 struct PredictionSelection {
   bool values = true, jacobian = false, abscissa_derivative = false, diagnostics = false;
 };
-/// What a test answers. Nothing is to be read unless the status is ok.
+/// The results of a test. They are valid only if the status is ok.
 struct Prediction {
   Status status;
   Values values, jacobian, abscissa_derivative, diagnostics;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What calls of a test may depend on, and how they may end.
+// The permitted dependencies and outcomes of calls of a test.
 #include <algorithm>
 #include <array>
 #include <cctype>

@@ -38,7 +38,7 @@ Json document(const std::filesystem::path& file) {
   }
 }
 
-/// Groups of runs have objectives that cannot be compared, so that none of them has the best run.
+/// Groups of runs have objectives that are not comparable, so no run is the best overall.
 void refuse_incomparable(const Json& result, const std::string& file) {
   std::vector<std::string> groups, first;
   for (const Json& entry : list(result, "ranking")) {

@@ -7,10 +7,10 @@
 
 #include "cards/material.hpp"
 
-/// From a result folder to what a material card says.
+/// From a result folder to the contents of a material card.
 namespace tunica::exporting {
 
-/// Which parameters of which result.
+/// The selection of a result and of its parameters.
 struct ExportRequest {
   std::filesystem::path result;  ///< a folder that `tunica run` has written, or the result.json in it
   std::string run = {};          ///< a run of it; empty = the best-ranked one with a result

@@ -13,7 +13,7 @@ namespace tunica::exporting {
 /// The model's parameters by their own names, each with its object of result.json.
 using Parameters = std::vector<std::pair<std::string, report::Json>>;
 
-/// What the remarks are made of.
+/// The inputs of the remarks.
 struct Origin {
   const std::filesystem::path& folder;
   const report::Json& result;  ///< result.json

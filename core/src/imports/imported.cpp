@@ -114,7 +114,7 @@ std::optional<std::string> toe_of(const data::Dataset& dataset) {
       abscissa, path[row], dataset.channels.front().observable);
 }
 
-/// What was written is checked as `tunica check` will.
+/// Checks the written file in the same way as `tunica check`.
 void check_written(const plugins::Catalogue& catalogue, Imported& imported) {
   const auto experiment = experiment::read_experiment(imported.file, catalogue);
   const auto examined = calibration::examine(experiment, catalogue);

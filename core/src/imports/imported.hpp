@@ -8,7 +8,7 @@
 
 #include "importing/proposal.hpp"
 
-/// `tunica import` without a terminal: what the command line and Python share.
+/// `tunica import` without a terminal: the common part of the command line and Python.
 namespace tunica::imports {
 
 /// Options as the command line has them: lists of "NAME=VALUE", and words for all or for one.
@@ -19,7 +19,7 @@ struct ImportRequest {
   bool join = false;
 };
 
-/// The experiment that was written, and what is to be said of it.
+/// The written experiment, and the remarks on it.
 struct Imported {
   std::filesystem::path file;
   importing::Json experiment;

@@ -24,7 +24,7 @@ std::string step_label(const Json& steps, std::size_t which) {
                      id, place_words(member(steps[which], "target")));
 }
 
-/// What is left after each step, from the misfit of the base down to the tolerance.
+/// The remaining misfit after each step, from the misfit of the base down to the tolerance.
 Chart waterfall(const Json& budget) {
   Chart chart;
   chart.kind = "rows";

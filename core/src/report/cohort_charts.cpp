@@ -175,7 +175,7 @@ std::vector<Series> branches_of(const Series& whole) {
   return branches;
 }
 
-/// What was measured in the specimens of a group, under its band.
+/// The measured values in the specimens of a group, below its band.
 Series measured_of(const Folder& folder, const std::string& file, const std::string& channel,
                    const std::vector<std::string>& specimens) {
   Series data{"measured", "points", -1};

@@ -54,7 +54,7 @@ void add_picture(Page& page, const Folder& folder, const Json& diagnosis) {
   page.chart(chart, folder.address());
 }
 
-/// Gain of each specimen, with an amplitude of its own and with that of the others.
+/// Gain of each specimen, with its own amplitude and with that of the others.
 void add_gain(Page& page, const Folder& folder, const Json& diagnosis) {
   const Json& all = list(diagnosis, "left_out");
   if (all.empty()) return;

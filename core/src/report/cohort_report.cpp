@@ -149,7 +149,7 @@ void add_population(Page& page, const Folder& folder, const Json& population) {
   if (!outlying.empty()) page.box("bad", "Unlike the others", outlying);
 }
 
-/// The runs side by side, where there are several.
+/// A comparison of the runs, if there are several.
 void add_models(Page& page, const Folder& folder) {
   double least = std::numeric_limits<double>::infinity();
   for (const Json& one : populations(folder))

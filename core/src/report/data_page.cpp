@@ -36,7 +36,7 @@ std::vector<std::size_t> peaks_kept(const std::vector<double>& values) {
   return rows;
 }
 
-/// A column of the file over the clock, and over it what the test uses.
+/// A column of the file over time, overlaid by the rows that the test uses.
 Chart signal_chart(const TestData& test, const data::Signal& signal, std::size_t column) {
   const data::Signal::Column& values = signal.columns[column];
   Chart chart;

@@ -7,7 +7,7 @@
 #include "data/dataset.hpp"
 #include "data/signal.hpp"
 
-/// What was understood of the data of an experiment, before anything is fitted.
+/// The interpretation of an experiment's data, before any fit.
 namespace tunica::report {
 
 struct TestData {

@@ -6,7 +6,7 @@
 #include "report/lines.hpp"
 #include "report/sections.hpp"
 
-/// What the charts of a diagnosis share.
+/// The common parts of the charts of a diagnosis.
 namespace tunica::report {
 
 /// The waterfall of the budget, and what each test has of it.

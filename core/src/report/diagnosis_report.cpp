@@ -34,7 +34,7 @@ std::vector<Candidate> candidates_of(const Json& diagnosis) {
   for (const Json& one : list(diagnosis, "scores"))
     candidates.push_back({word(one, "id") + place_words(member(one, "target")), word(one, "id"), word(one, "group"),
                           number(one, "score"), number(one, "p_value")});
-  // A cause whose trace is no straight line shows only once it is fitted, perhaps in another place.
+  // A cause with a nonlinear trace shows only after a fit, perhaps in another place.
   for (const Json& one : list(diagnosis, "ranking"))
     for (Candidate& candidate : candidates)
       if (candidate.id == word(one, "id") && std::isfinite(number(one, "gain"))) {

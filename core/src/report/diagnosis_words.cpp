@@ -18,7 +18,7 @@ std::vector<std::string> named_causes(const Json& diagnosis) {
   for (const Json& mechanism : list(member(diagnosis, "extension"), "mechanisms"))
     ids.push_back(word(mechanism, "type"));
   if (ids.empty() && !list(diagnosis, "causes").empty()) ids.push_back(word(list(diagnosis, "causes").front(), "id"));
-  // Instances side by side, as several relaxation times are, stand once.
+  // Parallel instances, such as several relaxation times, are listed once.
   std::vector<std::string> named;
   for (auto at = ids.begin(); at != ids.end(); ++at) {
     if (std::find(ids.begin(), at, *at) != at) continue;

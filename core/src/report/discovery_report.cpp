@@ -155,7 +155,7 @@ void add_specimens(Page& page, const Json& discovery) {
 
 void add_terms(Page& page, const Folder& folder) {
   const Json& discovery = member(folder.result(), "discovery");
-  // Where one cause leads, the terms of a search that came before are no part of the answer.
+  // If one cause leads, the terms of an earlier search are not part of the result.
   if (!discovery.is_object() || word(member(folder.result(), "diagnosis"), "verdict") == "leading") return;
   const Json& terms = list(discovery, "terms");
   if (terms.empty()) return;

@@ -97,7 +97,7 @@ std::size_t add_lines(Chart& chart, const Series& whole, const std::vector<data:
   return left_out;
 }
 
-/// What was measured, and apart from it what was held out.
+/// The measured values, with held-out values shown separately.
 std::size_t add_measured(Chart& chart, const Channel& channel, const std::vector<std::size_t>& rows) {
   Series data = channel.along(rows, {"measured", "points", -1}),
          held = channel.along(rows, {"measured, held out", "points", 6});
@@ -162,7 +162,7 @@ std::string bands_note(const Chart& chart) {
   return text;
 }
 
-/// Measured and predicted, and beside it what is left between them.
+/// Measured and predicted values, with the residuals beside them.
 void add_channel(Page& page, const Folder& folder, const Order& order, const Channel& channel) {
   const Table& table = channel.table;
   const std::string what = table.title(channel.measured), over = table.title(channel.over);

@@ -12,20 +12,20 @@
 
 namespace tunica::report {
 
-/// What a result folder holds, and what of it could not be read.
+/// The contents of a result folder, and the files that could not be read.
 class Folder {
  public:
   enum class Kind { run, diagnosis, discovery, simulation, cohort };
 
-  /// Throws InputError where there is no such folder, a broken result.json, or nothing to report.
-  /// `address` is how the page reaches the folder, "" where the page lies in it.
+  /// Throws InputError if the folder is missing, result.json is broken, or there is nothing to report. `address` is how
+  /// the page reaches the folder, "" where the page lies in it.
   explicit Folder(std::filesystem::path path, std::string address = "");
 
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] const std::string& address() const { return address_; }
   [[nodiscard]] std::string name() const;
   [[nodiscard]] const Json& result() const { return result_; }
-  /// Nothing where there is no such table; unreadable ones are remembered in problems().
+  /// None if there is no such table; problems() lists unreadable ones.
   [[nodiscard]] std::optional<Table> table(const std::string& file) const;
   /// The same of a JSON document.
   [[nodiscard]] std::optional<Json> document(const std::string& file) const;

@@ -35,7 +35,7 @@ std::vector<Grid::Field> fields(const Tree& parent) {
   return found;
 }
 
-/// What a drawing relies on; empty = all is well.
+/// Checks the assumptions of a drawing; empty = all hold.
 std::string fault(const Grid& grid) {
   if (grid.x.empty() || grid.cells.empty()) return "has no cells";
   if (grid.cells.size() % 4 != 0) return "has cells that are no quadrilaterals";

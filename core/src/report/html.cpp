@@ -14,7 +14,7 @@ namespace tunica::report {
 
 namespace {
 
-/// nlohmann_json is the UTF-8 decoder at hand: it replaces what is malformed.
+/// nlohmann_json serves as UTF-8 decoder: it replaces malformed bytes.
 std::string valid_utf8(std::string_view text) {
   const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return nlohmann::json::parse(quoted).get<std::string>();

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-/// Names, units and messages come from files that anyone may have written: nothing of them may act in the page.
+/// Names, units and messages come from untrusted files: they must never act as code in the page.
 namespace tunica::report {
 
 /// Text for HTML, inside elements and inside quoted attributes. What is no UTF-8 becomes U+FFFD; control characters

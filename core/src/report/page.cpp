@@ -89,7 +89,8 @@ std::string Page::document() const {
   std::string contents;
   for (const auto& [anchor, heading] : contents_)
     contents += fmt::format("<a href=\"#{}\">{}</a>", anchor, escaped(heading));
-  // No address but the page itself is allowed, no script but the two below runs, whatever a name in the data says.
+  // The policy allows no address except the page itself, and no script except the two below, whatever names in the data
+  // contain.
   const std::string policy = fmt::format(
       "default-src 'none'; script-src {} {}; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
       "form-action 'none'",

@@ -21,7 +21,7 @@ double number(const Json& object, std::string_view key);
 /// The strings of a list.
 std::vector<std::string> words(const Json& list);
 
-/// Four digits, "–" for what is none.
+/// Four digits, or "–" for a missing number.
 std::string figure(double value);
 /// A probability; below 0.0001 it only says so.
 std::string share(double p);

@@ -41,7 +41,7 @@ std::vector<std::string> merged(const Json& result) {
   return lines;
 }
 
-/// " (h = 0.7)": what tells a run from others of its model and optimizer.
+/// " (h = 0.7)": the difference between a run and others with its model and optimizer.
 std::string differences(const Json& run) {
   const auto parts = words(list(run, "differs_by"));
   return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, ", "));

@@ -31,7 +31,7 @@ std::string scored_words(std::vector<Scored> all) {
   return text::joined(parts);
 }
 
-/// What was fitted, and apart from it what was held out.
+/// The fitted rows, and separately the held-out rows.
 std::vector<std::string> fit_words(const Json& best) {
   std::vector<Scored> fitted, held_out;
   const Json& tests = member(best, "per_test");
@@ -89,7 +89,7 @@ struct Doubts {
   }
 };
 
-/// A diagnosis fits without constraints: what they alone do to a fit is not for it to explain.
+/// A diagnosis fits without constraints, so it does not explain a misfit that only constraints cause.
 std::string diagnosis_advised(const Json& best) {
   const std::string imposed = word(member(best, "stability"), "imposed");
   if (imposed.empty()) return "Run tunica diagnose EXPERIMENT.";
@@ -203,7 +203,7 @@ void noise_in_doubt(const Json& result, const std::string& run, Doubts& doubts) 
     doubts.add("the rows scatter far less than the stated noise says", "Correct the noise, or the unit of the data.");
 }
 
-/// What the run came to, where it is no fit; the key that lets the search go on is in its words.
+/// The outcome of a run that is not a fit; the sentence names the key that lets the search continue.
 void ending_in_doubt(const Json& result, const std::string& run, Doubts& doubts) {
   for (const Json& one : list(result, "runs")) {
     const std::string code = word(one, "ending_code");

@@ -83,7 +83,7 @@ void add_convergence(Page& page, const Folder& folder, const Order& order, const
   page.chart(chart, folder.address());
 }
 
-/// Realisations sorted by what they came to: a flat left end means that they agree.
+/// Realisations sorted by their final objective: a flat left end means that they agree.
 void add_waterfall(Page& page, const Folder& folder, const Order& order, const Table& table, const std::string& group) {
   Chart chart;
   chart.id = "waterfall";

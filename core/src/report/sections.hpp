@@ -5,7 +5,7 @@
 #include "report/page.hpp"
 #include "report/pieces.hpp"
 
-/// What a report is made of. Each leaves out what the folder does not hold.
+/// The sections of a report. Each omits what the folder lacks.
 namespace tunica::report {
 
 void add_warnings(Page& page, const Folder& folder);
@@ -36,13 +36,13 @@ void add_reach(Page& page, const Folder& folder);
 
 /// A folder of `tunica discover`.
 void add_discovery(Page& page, const Folder& folder);
-/// What a discovery found: the terms with their curves, rival forms, gain. Nothing where there was no search.
+/// The results of a discovery: the terms with their curves, rival forms, gain. Empty without a search.
 void add_terms(Page& page, const Folder& folder);
 
 void add_simulation(Page& page, const Folder& folder);
 
 void add_cohort(Page& page, const Folder& folder);
-/// What the model gets wrong in all specimens: verdict, picture mechanism × specimen, rivals, contradictions.
+/// The errors of the model in all specimens: verdict, picture mechanism × specimen, rivals, contradictions.
 void add_cohort_diagnosis(Page& page, const Folder& folder);
 void add_bands(Page& page, const Folder& folder);
 /// Estimates of every specimen by group, of each parameter and reading.
@@ -50,7 +50,7 @@ void add_specimen_estimates(Page& page, const Folder& folder);
 /// Data and fit of every specimen, drawn when someone opens the fold.
 void add_specimen_fits(Page& page, const Folder& folder);
 
-/// Several folders beside each other, before each by itself.
+/// Several folders compared, before each one separately.
 void add_comparison(Page& page, const std::vector<Folder>& folders);
 
 }  // namespace tunica::report

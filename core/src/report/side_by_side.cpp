@@ -14,7 +14,7 @@ namespace tunica::report {
 
 namespace {
 
-/// What a folder says in one column: (row, text).
+/// The entries of a folder in one column: (row, text).
 std::vector<std::pair<std::string, std::string>> column_of(const Folder& folder) {
   std::vector<std::pair<std::string, std::string>> lines;
   if (folder.kind() == Folder::Kind::simulation) return {{"kind", "simulation"}};

@@ -22,7 +22,7 @@ void add_words(Page& page, const Folder& folder) {
   if (const auto warnings = words(list(said, "warnings")); !warnings.empty())
     page.box("bad", warnings.size() == 1 ? "Warning" : fmt::format("{} warnings", warnings.size()), warnings);
   std::vector<std::string> values;
-  // A test's imperfections at zero are no news.
+  // Imperfections of a test at zero are not worth listing.
   for (const auto& [name, estimate] : member(said, "parameters").items())
     if (name.find('.') == std::string::npos || number(estimate, "value") != 0)
       values.push_back(fmt::format("{} = {}", name, amount(number(estimate, "value"), word(estimate, "unit"))));

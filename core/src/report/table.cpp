@@ -23,7 +23,7 @@ std::optional<Table> Table::read(const std::filesystem::path& file, std::string&
     Table table;
     table.name_ = file.filename().string();
     const std::string text = data::read_bytes(file);
-    // A table of which nothing came to be written but its header is no fault.
+    // A table with only a header is not a fault.
     std::size_t lines = 0;
     for (std::size_t at = 0; at < text.size() && lines < 2; at = text.find('\n', at), at += at != std::string::npos)
       if (text[at] != '#' && text[at] != '\n') ++lines;

@@ -32,7 +32,7 @@ struct State {
     for (const std::size_t at : rows) values.push_back(table.number(at, name));
     return values;
   }
-  /// What the row prescribes: its value, and "pressure = 13.3 kPa".
+  /// The prescribed quantity of the row: its value, and "pressure = 13.3 kPa".
   [[nodiscard]] std::pair<double, std::string> load() const {
     for (std::size_t c = 0; c < table.columns().size(); ++c) {
       const auto& column = table.columns()[c];

@@ -24,7 +24,7 @@ class ModelFailure : public std::runtime_error {
 ///     residuals    r(p), Layout::residual_count numbers; the objective is Σ w ρ(‖r_b‖²) over the blocks of the layout
 ///     predictions  y(p), one vector a channel of a test, in the order of Layout::channels
 ///
-/// Thread-safe: each call has scratch of its own.
+/// Thread-safe: each call has its own scratch.
 class ServedRun {
  public:
   enum class Function { objective, residuals, predictions };
