@@ -13,8 +13,8 @@ namespace tunica {
 /// of the state include the effect of a direction on all earlier rows. One pass along the path therefore gives exact
 /// derivatives by all parameters (forward mode).
 ///
-/// The caller fills in the elastic response. Model::remember() changes `gradient` and `state` in place. Ownership: the
-/// caller's; pointers are valid during the call.
+/// The caller fills in the elastic response. Model::remember() changes `gradient` and `state` in place.
+/// Ownership: the caller's; pointers are valid during the call.
 struct AxisStep {
   /// 1 + number of directions.
   std::size_t width = 1;

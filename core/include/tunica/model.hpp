@@ -110,15 +110,16 @@ struct AxisResponse {
 /// ModelDescription::compressible is true, S has no pressure and no isochoric split. Only its deviatoric part then
 /// vanishes at rest, and the test enforces incompressibility. Physics: docs/theory.md.
 ///
-/// Required: describe() and evaluate(). Optional: evaluate_axes(), the fast path of point tests; remember(), the fast
-/// path for models with memory; parts(), which lets mechanisms change an energy that is a sum. Few authors implement
-/// this interface directly: tunica/models/ has bases that need only the energy.
+/// Required: describe() and evaluate().
+/// Optional: evaluate_axes(), the fast path of point tests; remember(), the fast path for models with memory; parts(),
+/// which lets mechanisms change an energy that is a sum. Few authors implement this interface directly: tunica/models/
+/// has bases that need only the energy.
 ///
 /// Threads: every method is const and is called concurrently, so members must not hold mutable scratch. A call is a
-/// trial: it reads the old state and writes the new one. A second call must give the same bits. Failure: where the
-/// energy overflows or is undefined, write non-finite numbers at that point; the test or the host turns them into a
-/// status. Return a status other than ok only if no point could be evaluated. Do not throw. Ownership: the model owns
-/// the results of describe() and parts() for its whole life. Spans are valid during the call.
+/// trial: it reads the old state and writes the new one. A second call must give the same bits.
+/// Failure: where the energy overflows or is undefined, write non-finite numbers at that point; the test or the host
+/// turns them into a status. Return a status other than ok only if no point could be evaluated. Do not throw.
+/// Ownership: the model owns the results of describe() and parts() for its whole life. Spans are valid during the call.
 class Model {
  public:
   virtual ~Model() = default;

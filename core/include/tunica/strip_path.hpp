@@ -18,8 +18,9 @@ namespace tunica {
 /// with σ the Cauchy stress along the strip. An empty span means "not wanted". Spans do not overlap.
 ///
 /// Initial guesses: the test (free_strip::Start) supplies nodes and their guesses once for its rows. A model may ignore
-/// them. The result must not depend on earlier calls. Failure: a row without equilibrium fails the call, and `lost` is
-/// its index; a stress that overflows is written as it is. Threads: a call reads and writes only this object.
+/// them. The result must not depend on earlier calls.
+/// Failure: a row without equilibrium fails the call, and `lost` is its index; a stress that overflows is written as it
+/// is. Threads: a call reads and writes only this object.
 /// Ownership: the caller's; everything is valid during the call.
 struct StripPath {
   std::size_t loaded = 0;              ///< the axis it is pulled along: 0 = circumferential, 1 = axial

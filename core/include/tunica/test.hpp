@@ -242,8 +242,9 @@ struct Effort {
 ///
 /// Derivatives: the Jacobian is exact if the model has parameter derivatives. If it has none, the test returns `failed`
 /// when a Jacobian is wanted, and the host differences whole predictions. For a model with memory,
-/// TestDescription::path_derivatives says whether the Jacobian is exact. Threads: every method is const and is called
-/// concurrently. Failure: a status whose reason names row and abscissa; never a NaN under `ok`, never an exception.
+/// TestDescription::path_derivatives says whether the Jacobian is exact.
+/// Threads: every method is const and is called concurrently.
+/// Failure: a status whose reason names row and abscissa; never a NaN under `ok`, never an exception.
 /// Ownership: the test owns its copy of the rows and the result of describe().
 class Test {
  public:

@@ -21,7 +21,8 @@ namespace tunica {
 /// applied to the base first (Stage), or add to the whole model (ModelSum). A subclass may declare its number of state
 /// doubles in principal axes and implement remember_step(). Tests that follow paths in principal axes then have exact
 /// derivatives along whole paths. Elsewhere the host differences whole paths. evaluate_axes() is off, because a single
-/// call has no history. Threads and failure: as Model.
+/// call has no history.
+/// Threads and failure: as Model.
 class HistoryModel : public Model {
  public:
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
