@@ -174,7 +174,7 @@ inline Ranks ranks(const Prior& prior, std::size_t sets, std::size_t draws, std:
     const auto workspace = assembly.evaluator().make_workspace();
     if (!assembly.evaluator().predict(truth, measured, {}, *workspace).ok()) throw std::runtime_error("no prediction");
     if (discrepancy) add_misfit(assembly, random, measured);
-    std::vector<double> again = measured;  // measured once more, and shown to nobody
+    std::vector<double> again = measured;  // measured once more, but not used in the fit
     for (std::size_t i = 0; i < sd.size(); ++i) {
       measured[i] += sd[i] * random.normal();
       again[i] += sd[i] * random.normal();

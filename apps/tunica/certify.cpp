@@ -30,7 +30,7 @@ struct CertifyOptions {
 };
 
 int certify(const GlobalOptions& global, const CertifyOptions& options) {
-  if (!options.best_points.empty()) ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody else reads the answer to `run`
+  if (!options.best_points.empty()) ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // only `run` reads the answer
   const std::filesystem::path folder = options.folder;
   const std::filesystem::path points =
       options.best_points.empty() ? folder / "result.json" : std::filesystem::path(options.best_points);

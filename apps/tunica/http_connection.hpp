@@ -31,7 +31,7 @@ class HttpConnection final : public httplib::Stream {
   bool wait_for_request(const Over& over);
   /// The headers are read: what follows is the body.
   void begin_body() { left_ = limits_.body; }
-  /// Bytes are left that nobody may read: too many, or too slow.
+  /// Unread bytes remain because they are too many or too slow.
   [[nodiscard]] bool is_spent() const { return spent_; }
   /// What follows is not read.
   void spend() { spent_ = true; }

@@ -38,7 +38,7 @@ class Server final : public ConnectionServer {
         response.status = status;
         response.set_content(std::string(R"({"error": {"type": "InvalidInput", "message": ")") + words + "\"}}",
                              json_type);
-        connection().spend();  // a body that nobody reads would be taken for the next request
+        connection().spend();  // an unread body would be taken for the next request
         return HandlerResponse::Handled;
       };
       if (!is_of_this_machine(request.get_header_value("Host"), request.get_header_value("Origin"), service_.host))

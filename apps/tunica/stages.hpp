@@ -21,7 +21,7 @@ class Stages {
   ~Stages();
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
-  /// `share` of the whole that is done, from 0 to 1; none where nobody can know it.
+  /// `share` of the whole that is done, from 0 to 1; none if it is unknown.
   void tell(const std::string& what, std::optional<double> share);
 
  private:

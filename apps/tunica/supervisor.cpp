@@ -127,7 +127,7 @@ void copy(Path& to, const std::filesystem::path& from) {
   for (const int number : passed_on) ::signal(number, SIG_DFL);
   ::signal(SIGALRM, SIG_DFL);
   ::signal(SIGXFSZ, SIG_IGN);          // a write beyond the limit then fails with words
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would take up the work, or be told of its end
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no process would resume the work or report its end
   if (::getppid() != parent) ::_exit(internal_error);
   plugins::casualties = &common->casualties;
   plugins::open_to_write = open_shared;

@@ -233,7 +233,7 @@ TEST(BaseFitKept, IsAnOptimumWhereNothingKeepsItFromOne) {
   EXPECT_THAT(found.warnings, IsEmpty());
 }
 
-/// The optimum, 30, lies behind a bound; at its own end nobody but the model is to blame.
+/// The optimum, 30, lies beyond a bound. At the end of the model's own range, only the model is at fault.
 TEST(BaseFitKept, SaysWhichBoundsHoldItBack) {
   for (const double most : {20., 40.}) {
     BaseFitBed bed([](double a) { return StressAt{0.1 * (a - 30), 0.1}; }, 100, 0.01);

@@ -129,7 +129,7 @@ TEST(Library, KnowsTheNoiseOfTheDataAndGuessesTheRest) {
     EXPECT_EQ(strip.sd.at(i), 0.3) << "the smaller of two";
     EXPECT_EQ(strip.sd.at(20 + i), 0.005) << "of a stretch that nobody measured";
   }
-  // 1.5 % of the largest value of each channel that nobody measured.
+  // 1.5 % of the largest value of each unmeasured channel.
   const Design& sheet = library["a sheet stretched twice as far along the axis as along the circumference"];
   const std::vector<double> values = library.predicted(sheet);
   for (std::size_t channel = 0; channel < 2; ++channel) {

@@ -35,7 +35,7 @@ std::vector<double> to_and_fro(std::size_t rows) {
   return stretch;
 }
 
-/// Two strips without a word about noise.
+/// Two strips without stated noise.
 struct SilentStrips : Measured {
   explicit SilentStrips(std::size_t rows = 45, double sd = 0.3)
       : Measured({{.stretch = to_and_fro(rows), .sd = sd}, {.name = "axial", .stretch = to_and_fro(rows), .sd = sd}}) {

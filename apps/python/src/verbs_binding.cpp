@@ -181,7 +181,7 @@ class NewFolder {
   execution::RunDirectory folder_;
 };
 
-/// Searches and writes, as long as nobody interrupts: `search` gets what listens, and gives what writes.
+/// Searches and writes unless interrupted: `search` receives a listener, and returns a writer.
 template <class Search>
 py::dict searched(const Loaded& loaded, const Folder& directory, unsigned threads, const py::object& progress,
                   const Search& search) {

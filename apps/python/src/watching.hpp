@@ -15,7 +15,7 @@
 namespace tunica::python {
 
 /// Runs and diagnoses of one process come one after the other: they share the handler of Ctrl-C. While this object
-/// lives no other can be made; InputError where somebody tries.
+/// lives no other can be made; a second one throws InputError.
 class OneAtATime {
  public:
   OneAtATime();

@@ -72,6 +72,6 @@ def method_of(definition, options, method):
 
 
 def forget(name):
-    """Takes back what was defined under this name."""
+    """Removes the definition of this name."""
     library().forget(name)
     modules.pop(name, None)

@@ -67,9 +67,9 @@ class Energy:
         second = d if twice else 0
         components = variables(points, 0, d + count, second)
         own = variables(parameters[:, None], d, d + count, second) if by_parameters else parameters.tolist()
-        with numpy.errstate(all="ignore"):  # what is not finite is a failed evaluation, which says where
+        with numpy.errstate(all="ignore"):  # a non-finite value is a failed evaluation, which names its place
             energy = self._function(Strain(components), *own)
-        zero = components[0] * 0.0  # whatever the energy depends on, there is a value a point
+        zero = components[0] * 0.0  # one value per point, whatever the energy depends on
         return zero + energy if not isinstance(energy, Jet) or energy.value.shape != (n,) else energy
 
     def evaluate(self, C, parameters, wanted):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tunica raises. Each message says what was found, where, what was expected and what to do."""
+"""The exceptions of tunica. Each message says what was found, where, what was expected and what to do."""
 
 
 class TunicaError(Exception):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The plugins of this process, and how an experiment is read from what the user has: a file, a dictionary."""
+"""The plugins of this process, and the reading of an experiment from a file or a dictionary."""
 import csv
 import hashlib
 import io
@@ -60,7 +60,7 @@ def _plain(value):
 
 
 def _kept(table, place):
-    """The file of a table: its name is the hash of what is in it, so that the same data are the same file."""
+    """The file of a table. Its name is the hash of its content, so equal data share a file."""
     try:
         columns = {str(name): numpy.asarray(table[name]) for name in table}
         lengths = {len(column) for column in columns.values()}

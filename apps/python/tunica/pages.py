@@ -33,7 +33,7 @@ class Studio:
         self.close()
 
     def close(self):
-        """Ends the page and its jobs, which save what they have found."""
+        """Ends the page and its jobs, which save their results so far."""
         atexit.unregister(self.close)
         if self._process.poll() is None:
             self._process.terminate()
@@ -79,7 +79,7 @@ def studio(folder=".", *, port=0, browser=True):
     if _options["allow_world_writable"]:
         words.append("--allow-world-writable-plugins")
     words += ["studio", path(folder, "studio()"), "--port", str(int(port)), *([] if browser else ["--no-browser"])]
-    with tempfile.TemporaryFile("w+") as said:  # a pipe that nobody reads would end the program
+    with tempfile.TemporaryFile("w+") as said:  # a pipe whose reader is gone would end the program
         process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=said, text=True, start_new_session=True)
         address = process.stdout.readline().strip()
         if address:

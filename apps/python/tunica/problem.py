@@ -85,7 +85,7 @@ class Problem:
         return dict(zip(self.names, self._parameters(x).tolist()))
 
     def vector(self, values):
-        """The vector of {name: value}; what is not named is at its initial value."""
+        """The vector of {name: value}; parameters that are not named have their initial value."""
         known = dict(zip(self.names, (about["initial"] for about in self._about)))
         unknown = [name for name in values if name not in known]
         if unknown:
@@ -115,7 +115,7 @@ class Problem:
         return jacobian * self._problem.unit_slopes(p) if self._unit else jacobian
 
     def evaluate(self, x, residuals=False, jacobian=False):
-        """An Evaluation, whatever happens there: nothing is raised for a point that fails, or lies beyond a bound."""
+        """An Evaluation. A point that fails or lies beyond a bound raises no exception."""
         if outside := self._outside(x):
             return Evaluation("failed", outside)
         p = self._parameters(x)

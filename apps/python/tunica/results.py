@@ -41,7 +41,7 @@ class Named(dict):
 
 
 class Estimate(float):
-    """A parameter: its value, a number to calculate with, and what is known of it. All in `unit`."""
+    """A parameter: its value, which is a number, and its uncertainty. All are in `unit`."""
 
     def __new__(cls, value, about):
         estimate = super().__new__(cls, value)
@@ -170,13 +170,13 @@ class Run:
 
     @property
     def parameters(self):
-        """{name: Estimate} of what was searched for."""
+        """{name: Estimate} of the free parameters."""
         return Named("parameter", {name: Estimate(about["value"], about)
                                    for name, about in self.best["parameters"].items()})
 
     @property
     def fixed(self):
-        """{name: Estimate} of what was held."""
+        """{name: Estimate} of the held parameters."""
         return {name: Estimate(about["value"], about) for name, about in self.json["fixed"].items()}
 
     @property

@@ -165,7 +165,7 @@ def simulate(experiment, model="", parameters=None, directory=None, *, base=None
 
 def diagnose(experiment, directory=None, *, base=None, threads=None, seed=None, alpha=None, mechanisms=(), quick=False,
              progress=None):
-    """Shows what the simulation gets wrong and names the cause, as `tunica diagnose` does; returns a Diagnosis.
+    """Shows where the simulation is wrong and names the cause, as `tunica diagnose` does; returns a Diagnosis.
 
     Arguments as run() has them; alpha: the share of false alarms that is accepted; mechanisms: only these causes;
     quick: a first answer. Ctrl-C raises Interrupted, and leaves nothing behind.

@@ -9,7 +9,7 @@
 
 namespace tunica::app::studio {
 
-/// Nobody who comes by the page asks for this: it is refused with 403, and logged.
+/// The page itself never sends such a request: it is refused with 403, and logged.
 class Refused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -29,7 +29,7 @@ class Doorkeeper {
   /// Where files of the project are shown: "/view/<token>/".
   [[nodiscard]] std::string view() const { return "/view/" + tokens_.substr(length) + "/"; }
 
-  /// A reply for who may not come in, and for who comes with the token for the first time.
+  /// A reply to a refused client, and to a client that brings the token for the first time.
   [[nodiscard]] std::optional<WebReply> stopped(const WebRequest& request) const;
 
  private:

@@ -62,7 +62,7 @@ std::vector<JobRecord> job_records() {
   for (const fs::path& file : files) {
     try {
       jobs.push_back(record_of(detail::parse_json<json>(execution::read_text(file)), file.stem().string()));
-    } catch (const json::exception&) {  // somebody else's, or of a disk that was full
+    } catch (const json::exception&) {  // from another program, or from a full disk
     } catch (const InputError&) {
     }
   }

@@ -85,7 +85,7 @@ void collect(const fs::path& folder, int depth, const std::vector<JobRecord>& jo
 std::mutex names_mutex;
 std::set<fs::path> names_given;  ///< by free_name(), and not given back
 
-/// A changed copy stays beside its original, also in a folder of results, where nobody looks for experiments.
+/// A changed copy stays beside its original, even in a result folder, which is not searched for experiments.
 bool is_copy_of_result(const fs::path& copy) {
   std::error_code none;
   return text::is_plain(copy.native()) && copy.is_relative() && is_result(copy.parent_path()) &&

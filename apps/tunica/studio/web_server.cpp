@@ -101,7 +101,7 @@ class Server final : public ConnectionServer {
       auto refusal = service_.refused(request_of(request));
       if (!refusal) return HandlerResponse::Unhandled;
       hand_over(std::move(*refusal), response);
-      connection().spend();  // a body that nobody reads would be taken for the next request
+      connection().spend();  // an unread body would be taken for the next request
       return HandlerResponse::Handled;
     });
   }

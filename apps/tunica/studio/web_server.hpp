@@ -16,7 +16,7 @@ struct WebRequest {
   std::string token, name;  ///< of the query
   std::string host, origin, cookie;
   std::string length = {}, encoding = {};  ///< headers of the body
-  std::string key = {};                    ///< of who asks for a WebSocket
+  std::string key = {};                    ///< of a client that requests a WebSocket
   std::string body = {};
 };
 

@@ -95,7 +95,7 @@ void tie(FreeParameter& free, const Slot& first, const Slot& slot) {
 /// One free parameter from the slots that share it (mostly one).
 FreeParameter merge(const std::vector<const Slot*>& slots) {
   FreeParameter free = effective(*slots.front());
-  const Slot* scaled = nullptr;  // who states a scale, and an initial value
+  const Slot* scaled = nullptr;  // the slot that states a scale or an initial value
   const Slot* started = nullptr;
   for (const Slot* slot : slots) {
     if (slot != slots.front()) {

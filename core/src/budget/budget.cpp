@@ -35,7 +35,7 @@ bool is_settled(const diagnosis::Diagnosis& d, const discovery::Discovery* searc
     case Verdict::unknown:
       break;
   }
-  // Too many explanations that all leave noise are no misfit that nobody lists.
+  // Too many explanations that all leave only noise do not make an unlisted misfit.
   return d.explanation.claim.best && diagnosis::is_clean(d.explanation.p_after);
 }
 

@@ -54,7 +54,7 @@ struct Budget {
   /// What the data lack for a mechanism to be tried.
   enum class Lack {
     clock,    ///< there is no time
-    order,    ///< nobody says in which order the rows were measured
+    order,    ///< the order in which the rows were measured is unknown
     loading,  ///< the first rows lie far from rest
     volume,   ///< neither a lateral stretch nor a volume was measured
     size,     ///< the file does not say how large the specimen is

@@ -26,7 +26,7 @@ constexpr std::size_t most_entrants = 18;  ///< that are fitted
 constexpr std::size_t laws_of_an_invariant = 3;
 constexpr std::array<unsigned, 3> degrees{6, 10, 14};
 constexpr double as_rough_as_noise = 1.5;  ///< of |r|²/ν
-constexpr double unbelieved = 20;          ///< odds against an amplitude that nobody would believe
+constexpr double unbelieved = 20;          ///< odds against an implausible amplitude
 constexpr double rough_share = 0.15;       ///< of the misfit
 const double of_uniform = 1 / std::sqrt(2 * std::numbers::pi);
 

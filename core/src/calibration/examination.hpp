@@ -64,9 +64,9 @@ struct Examination {
   const experiment::Experiment& experiment;
   execution::Plan plan;
   std::vector<execution::Warning> warnings;
-  std::vector<std::string> notes;  ///< what should be known, and worries nobody
+  std::vector<std::string> notes;  ///< remarks that are not warnings
   std::vector<PosedProblem> problems;
-  std::vector<TestPath> paths;  ///< of tests with several branches, or with an order that somebody gave
+  std::vector<TestPath> paths;  ///< of tests with several branches, or with a stated order
   std::vector<UnderstoodData> understood = {};
 
   [[nodiscard]] bool good() const;

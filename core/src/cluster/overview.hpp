@@ -37,7 +37,7 @@ struct Overview {
   std::vector<ShardView> shards;
   std::optional<slurm::Task> merge;  ///< the newest
   std::string merge_last_words;      ///< of its log, where it failed
-  std::vector<slurm::Task> held;     ///< jobs that nobody but a person sets going again
+  std::vector<slurm::Task> held;     ///< jobs that only a user can release
   std::string queue_problem;         ///< why the queue was not asked; empty = it was
   std::size_t specimens = 0, missing = 0;
 

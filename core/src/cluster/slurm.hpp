@@ -40,7 +40,7 @@ Phase phase_of(const std::string& state);
 std::vector<Task> tasks_of(const std::string& squeue);
 
 /// The jobs of these names that Slurm still knows, those that ended a few minutes ago among them. Throws InputError
-/// where squeue does not answer: without it nobody knows what is submitted.
+/// where squeue does not answer: without it the submitted jobs are unknown.
 std::vector<Task> queue(const std::vector<std::string>& names);
 
 /// The jobs of these numbers from the accounts; empty where a cluster keeps none.

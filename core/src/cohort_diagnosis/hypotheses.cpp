@@ -88,7 +88,7 @@ void leave_out_rows_of_few(std::vector<Hypothesis>& all, std::size_t specimens) 
 }
 
 /// Places and settings of a mechanism share its weight alike; single rows and whole curves are two kinds of equal
-/// weight, and rows that nobody lists have their share too.
+/// weight, and unlisted rows have their share too.
 void share_out(std::vector<Hypothesis>& all, const Specimens& specimens) {
   std::size_t most_rows = 1;
   for (const SpecimenEvidence* specimen : specimens) most_rows = std::max(most_rows, specimen->rows);

@@ -156,7 +156,7 @@ void add_identifiability(const assembly::Assembly& assembly, const execution::Re
                          const plugins::LimitedWork& work, RunSummary& summary,
                          std::vector<execution::Warning>& warnings) {
   add_state_differences(assembly, best.best.parameters, nullptr, summary);
-  if (summary.status.kind() == Status::Kind::infeasible) return;  // nobody asks this of a point that is not allowed
+  if (summary.status.kind() == Status::Kind::infeasible) return;  // not needed at an infeasible point
   uncertainty::Identifiability found;
   const Status status = work.is_over() ? Status::failed("max_time was over")
                                        : uncertainty::identify(assembly, best.best.parameters, found);
@@ -213,7 +213,7 @@ void add_deviation(const assembly::Assembly& assembly, const std::vector<double>
   }
 }
 
-/// How large the misfit is. A channel whose noise nobody knows has all of it as misfit.
+/// The size of the misfit. In a channel with unknown noise, the whole residual counts as misfit.
 void add_size(const experiment::Experiment& experiment, const assembly::Assembly& assembly,
               const std::vector<double>& predictions, RunSummary& summary) {
   constexpr double hardly = 1e-9;  // of the range

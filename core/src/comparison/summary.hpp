@@ -159,7 +159,7 @@ struct RunSummary {
   std::optional<double> tolerance;     ///< share of the range, where the experiment states one
   std::optional<Deviation> deviation;  ///< of the channel that is worst; none where no row counts
   std::vector<NoiseOf> noise;
-  std::vector<std::string> notes;  ///< sentences that worry nobody
+  std::vector<std::string> notes;  ///< remarks that are not warnings
   /// Of all predictions of the best point, by Layout::channels: half width of the 95 % interval that the noise of
   /// the data leaves them; and the range over the best points of all realisations. Each empty where there is none.
   std::vector<double> curve_ci95, curve_lowest, curve_highest;

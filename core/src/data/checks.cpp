@@ -15,7 +15,7 @@ namespace {
 using Role = Observable::Role;
 using Kind = Observable::Kind;
 
-// No tissue or rubber is stretched twentyfold; where somebody's is, a unit in the header says so.
+// No tissue or rubber is stretched twentyfold; for an exception, a unit in the header states it.
 constexpr double largest_stretch = 20;
 
 void check_stretch(const Series& series, const Series::Column& column, std::vector<std::string>& warnings) {

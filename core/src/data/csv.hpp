@@ -44,7 +44,7 @@ struct Csv {
   [[nodiscard]] char decimal_mark(const std::vector<std::size_t>& of_columns) const;
   /// The number in a cell. Throws InputError on text, an empty cell, NaN, infinity.
   [[nodiscard]] double number(const Row& row, std::size_t column, char decimal) const;
-  /// Whoever writes names of the header, or cells, into JSON asks first; throws InputError.
+  /// Call it before names of the header or cells are written to JSON; throws InputError.
   void require_utf8(bool cells) const;
 };
 

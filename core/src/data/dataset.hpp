@@ -36,7 +36,7 @@ struct RowRange {
 
 /// The meaning of the order of the rows.
 enum class Order {
-  unknown,  ///< nobody says
+  unknown,  ///< not stated
   loading   ///< rows stand as they were measured
 };
 inline constexpr text::Codes<Order, 2> order_names{{{Order::unknown, "unknown"}, {Order::loading, "loading"}}};
@@ -57,7 +57,7 @@ struct DataRequest {
   Order order = Order::unknown;                      ///< time says it too
   TableLayout layout;
   Specimen specimen;
-  std::optional<CycleChoice> cycle;  ///< absent: nobody says
+  std::optional<CycleChoice> cycle;  ///< absent: not stated
   std::string cycles_from;           ///< column that counts cycles; empty: from the turning points
   BranchChoice branch = BranchChoice::both;
   std::optional<Preload> preload;

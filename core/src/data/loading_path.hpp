@@ -13,7 +13,7 @@ namespace tunica::data {
 /// Whether the past of every row is known. Models and mechanisms with memory need it.
 enum class Past {
   known,            ///< rows stand as they were measured, and begin near rest or go on loading
-  order_unknown,    ///< nobody says in which order they were measured
+  order_unknown,    ///< the order of measurement is not stated
   starts_unloading  ///< the first row lies far from rest, and the load falls from there: what came before is unknown
 };
 

@@ -60,7 +60,7 @@ struct Preload {
 struct CompressionPositive {
   bool all = false;                  ///< every mapped column that has a sign in tension and compression
   std::vector<std::string> columns;  ///< these; as in "columns"
-  bool said = false;                 ///< the sign is stated, so that nobody need ask
+  bool said = false;                 ///< the sign is stated, so no question is needed
 };
 
 /// 3 of "#3", the name of the third column where names are missing or do not matter.

@@ -100,7 +100,7 @@ Run largest_run(const std::vector<CellLine>& lines) {
   return best;
 }
 
-/// Whether most numbers of a run stand under text: channels that nobody named have their number for a name.
+/// Whether most numbers of a run stand under text: unnamed channels have their number as a name.
 bool names_most(const Run& run, const std::vector<Cell>& cells) {
   std::ptrdiff_t named = 0;
   for (std::size_t c = 0; c < run.cells.size(); ++c)

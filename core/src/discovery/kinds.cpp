@@ -94,7 +94,7 @@ std::string plain(const std::string& invariant) {
   return name;
 }
 
-/// Whether terms of this invariant are looked for where nobody asks.
+/// Whether terms of this invariant are considered by default.
 bool suits(const std::string& words, bool has_directions, bool sees_volume) {
   if (words == "J" || words.find("bar") != std::string::npos) {
     if (!sees_volume) return false;
@@ -169,7 +169,7 @@ std::vector<Kind> kinds_of(const Request& request, const States& states, bool ha
         if (holds(request.laws, law)) kinds.push_back(kind_of(words, law, reach));
     }
   }
-  constexpr double unusual = 0.2;  ///< the prior weight of a law of an invariant that nobody uses it with
+  constexpr double unusual = 0.2;  ///< the prior weight of an unusual combination of law and invariant
   double all = 0;
   const auto weight = [](const Kind& kind) {
     const bool odd = (kind.invariant.starts_with("I1") && kind.law == "logarithm") ||

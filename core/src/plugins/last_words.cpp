@@ -332,7 +332,7 @@ void leave_last_words() {
     struct sigaction before = {};
     if (::sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_DFL) std::signal(number, SIG_IGN);
   }
-  // One for each thread that may call exit() while another one does: whoever finds none left ends the process.
+  // One for each thread that may call exit() while another one does: a thread that finds none left ends the process.
   for (int thread = 0; thread < 64; ++thread)
     if (std::atexit(on_exit_in_plugin) != 0 || std::at_quick_exit(on_exit_in_plugin) != 0) break;  // memory lacks
 }

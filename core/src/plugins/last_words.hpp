@@ -20,8 +20,8 @@ void leave_last_words();
 /// Exit code of a process that was ended because of an entry in `casualties`.
 constexpr int fell = 70;
 
-/// For who takes the place of _exit(): enters the plugin that this thread is in, if it is in one. False in processes
-/// that a plugin has forked: their end is no end of the work.
+/// For replacements of _exit(): records the plugin that this thread is in, if any. False in processes that a plugin has
+/// forked, because their end does not end the work.
 bool enter_exit_in_plugin(const char* end);
 
 /// Bytes that a process may have: of the machine, of its control group, of its own limits.

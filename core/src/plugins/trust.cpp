@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The library or program that this code is part of: whoever owns it can run code as the user anyway.
+/// The library or program that this code is part of: its owner can run code as the user anyway.
 void code_of_this_program() {}
 
 std::vector<uid_t> trusted_owners() {

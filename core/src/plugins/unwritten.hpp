@@ -16,8 +16,8 @@ inline bool is_unwritten(double value) {
   return std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(unwritten);
 }
 
-/// Marks the first and the last of every n numbers. Who leaves a component out leaves all of its numbers: to mark those
-/// too would cost as much as a model. `tunica plugin check` does.
+/// Marks the first and the last of every n numbers. A plugin that omits a component omits all of its numbers: to mark
+/// those too would cost as much as a model. `tunica plugin check` does.
 inline void mark_ends(std::span<double> values, std::size_t n) {
   for (std::size_t first = 0; first < values.size(); first += n) values[first] = values[first + n - 1] = unwritten;
 }

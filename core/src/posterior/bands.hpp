@@ -10,7 +10,7 @@
 namespace tunica::posterior {
 
 /// Pointwise, one value a prediction, held-out rows included: 2.5, 50 and 97.5 % of the curve, and 2.5 and 97.5 % of
-/// what would be measured there. NaN in the latter where nobody says how a row errs.
+/// what would be measured there. The latter is NaN if the noise of a row is unknown.
 struct Bands {
   std::vector<double> lower, median, upper;
   std::vector<double> lowest_measured, highest_measured;

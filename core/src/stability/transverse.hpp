@@ -73,7 +73,7 @@ struct TransverseVerdict {
   std::optional<double> first_unstable;   ///< stretch from which λ3 grows, judged or not
   std::optional<double> stable_again;     ///< and where it stops growing, when it does below checked_to
   std::optional<double> first_unstable_pressed;  ///< stretch below which λ3 falls as the strip is pressed
-  double checked_from = 1, checked_to = 1;       ///< the response was followed so far, or nobody looked further
+  double checked_from = 1, checked_to = 1;       ///< the range in which the response was followed
   double worst_slope = 0;                        ///< largest d ln λ3/d ln λ1 between them
 
   [[nodiscard]] bool asked() const { return judged_from < 1 || judged_to > 1; }

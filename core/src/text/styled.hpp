@@ -10,7 +10,7 @@ namespace tunica::text {
 
 enum class Emphasis { heading, caution };
 
-/// A text for a person, parts of which stand out on a terminal that has colours. Whoever writes it says which parts.
+/// A text for a person, parts of which stand out on a terminal that has colours. The writer marks these parts.
 class StyledText {
  public:
   StyledText() = default;

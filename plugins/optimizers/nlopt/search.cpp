@@ -164,7 +164,8 @@ Search search_by_levels(Problem& problem, std::span<const double> start, const S
 }
 
 /// A quadratic penalty that remembers where it is low: the lowest evaluated points that lie apart from each other. It
-/// leaves half of the evaluations to who goes on from there: a search may creep along the edge of a penalty for ever.
+/// leaves half of the evaluations for the continuation from there: a search may creep along the edge of a penalty for
+/// ever.
 class LowPlaces : public AugmentedLagrangian {
  public:
   explicit LowPlaces(Problem& problem) : AugmentedLagrangian(problem), last_(problem.budget() / 2) {}

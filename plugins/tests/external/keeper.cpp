@@ -75,7 +75,7 @@ void keep(const Kept& kept) {
     tell(kept.pipe, parent < 0 ? Message::Kind::not_watched : Message::Kind::not_made, parent < 0 ? problem : errno);
     _exit(127);
   }
-  setpgid(program, program);  // both sides do it: whoever comes first
+  setpgid(program, program);  // both sides do it; the first call counts
   const int running = descriptor_of(program);
   if (running < 0) {
     tell(kept.pipe, Message::Kind::not_watched, errno);
@@ -86,7 +86,7 @@ void keep(const Kept& kept) {
   pollfd watched[] = {{running, POLLIN, 0}, {parent, POLLIN, 0}};
   while (poll(watched, 2, -1) < 0 && errno == EINTR) {
   }
-  kill(-program, SIGKILL);  // before it is waited for: until then its number is nobody else's
+  kill(-program, SIGKILL);  // before waiting for it: until then its number cannot be reused
   int status = 0;
   while (waitpid(program, &status, 0) < 0 && errno == EINTR) {
   }

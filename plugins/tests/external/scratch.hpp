@@ -23,7 +23,7 @@ class Scratch {
   /// Writes a file below the folder. Throws std::runtime_error where that fails.
   void write(const std::string& name, const std::string& text) const;
 
-  /// Removes what processes have left below `parent` that ended without a word, for example at their limit of memory.
+  /// Removes the files below `parent` of processes that were killed, for example at their memory limit.
   static void sweep(const std::filesystem::path& parent);
 
  private:

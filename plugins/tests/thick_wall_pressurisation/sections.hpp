@@ -45,7 +45,7 @@ struct RestStress {
 class Sections {
  public:
   /// To be called first, and again whenever the wall has changed; all three have to outlive what follows. `whole`: the
-  /// two layers of one model are alike and nobody asks for their ratio, so the wall is not parted.
+  /// two layers of one model are alike and their ratio is not needed, so the wall is not divided.
   void begin(const Layers& layers, const Wall& wall, const Rule& rule, bool whole = false);
   /// The same with another rule.
   void take(const Rule& rule);

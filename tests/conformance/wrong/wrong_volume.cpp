@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A compressible rubber that nobody relieves at rest, and a strip that says it carries such materials and does not.
+// A compressible rubber with stress at rest, and a strip that wrongly declares support for such materials.
 #include <memory>
 #include <vector>
 
