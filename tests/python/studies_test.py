@@ -115,6 +115,10 @@ class Studies(Case):
         self.assertEqual((self.folder / "a.html").read_text(), (self.folder / "b.html").read_text())
         with self.assertRaisesRegex(tunica.InputError, "found 2 folders and no output"):
             tunica.report(run["neo_hooke"], run["yeoh"])
+        with self.assertRaisesRegex(tunica.InputError, "needs folders and output="):
+            tunica.report(run["yeoh"], pdf=True)
+        with self.assertRaisesRegex(tunica.InputError, "no folder .*none; make it first"):
+            tunica.report(run["yeoh"], output=self.folder / "none" / "b.pdf", pdf=True)
         card = program("export", self.folder / "yeoh", "--to", "abaqus")
         for result in (run["yeoh"], run["yeoh"].best, self.folder / "yeoh"):
             self.assertEqual(card, tunica.export(result, "abaqus"))

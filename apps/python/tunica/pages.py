@@ -50,7 +50,7 @@ def _version_of(program):
         return ""
 
 
-def _program():
+def _program(who):
     """The program that was installed with this package, else the one of the same version that a shell would find."""
     beside = pathlib.Path(_core.__file__).absolute().parent / PROGRAM
     if os.access(beside, os.X_OK):
@@ -58,12 +58,12 @@ def _program():
     wanted = f"tunica {_core.version}"
     found = shutil.which("tunica")
     if found is None:
-        raise InputError(f"studio() starts the program tunica, and found none at {beside} or in PATH; a wheel of pip has "
+        raise InputError(f"{who} starts the program tunica, and found none at {beside} or in PATH; a wheel of pip has "
                          f"none inside. Install {wanted}, or build it with ./bootstrap build and add build/release/bin to "
                          "PATH")
     version = _version_of(found)
     if version != wanted:
-        raise InputError(f"studio() found no program beside this package, and {found} in PATH is "
+        raise InputError(f"{who} found no program beside this package, and {found} in PATH is "
                          f"{version or 'no tunica that tells its version'}; expected {wanted}, as this package. Install "
                          "that version, or put its folder first in PATH")
     return found
@@ -73,7 +73,7 @@ def studio(folder=".", *, port=0, browser=True):
     """Serves the page of the project `folder`, on this machine only, and opens it where `browser` is true. port=0 is any
     that is free. Raises InputError where the folder is missing or is served already, or where no program tunica of this version is
     installed."""
-    words = [_program()]
+    words = [_program("studio()")]
     for plugins in _paths:
         words += ["--plugin-path", os.path.abspath(plugins)]
     if _options["allow_world_writable"]:

@@ -2,6 +2,7 @@
 """What the command line does with many specimens and with what a run has left: cohort, stability, report, export."""
 import json
 import pathlib
+import subprocess
 import tempfile
 
 from . import _core
@@ -9,6 +10,7 @@ from .arguments import finite, path, text, texts
 from .cohorts import Cohort
 from .errors import InputError, Interrupted
 from .library import library, read
+from .pages import _program
 from .results import Folder, Result, Run
 from .verbs import listening, subject, thread_count
 
@@ -52,13 +54,27 @@ def _folder(result):
     return str(result.directory) if isinstance(result, Folder) else text(result, "result")
 
 
-def report(*results, output=None):
+def _printed(folders, output):
+    """The program prints: it finds a browser, and ends it where it hangs."""
+    if output is None or not folders:
+        raise InputError("report: pdf=True needs folders and output=, the file to print into")
+    output = pathlib.Path(text(output, "output"))
+    printed = subprocess.run([_program("report(pdf=True)"), "report", *folders, "--pdf", str(output)],
+                             stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    if printed.returncode:
+        raise InputError(printed.stderr.strip().removeprefix("error: "))
+    return output
+
+
+def report(*results, output=None, pdf=False):
     """Makes the report again, as `tunica report` does; returns the path of the page.
 
     results: results, or folders of results. output: the file to write, which several of them need; report.html in the
-    folder unless given.
+    folder unless given. pdf: print it, by a browser that is installed; `output` is then needed.
     """
     folders = [_folder(result) for result in results]
+    if pdf:
+        return _printed(folders, output)
     if output is None and len(folders) == 1:
         return pathlib.Path(_core.write_report(folders[0]))
     if output is None or not folders:
