@@ -31,6 +31,18 @@ struct Schema : testing::Reading {
   valijson::Schema compiled;
 };
 
+TEST_F(Schema, RequiresTheKeysWithoutWhichTheReaderRefuses) {
+  EXPECT_EQ(text.at("required"), (json{"format", "models", "tests", "optimizers", "runs"}));
+  for (const std::string key : text.at("required")) {
+    json lacking = json::parse(testing::design_example, nullptr, true, true);
+    lacking.erase(key);
+    EXPECT_FALSE(valid(lacking)) << key;
+    EXPECT_NE(refusal(lacking.dump()).find("the key '" + key + "' is missing in the experiment file"),
+              std::string::npos)
+        << refusal(lacking.dump());
+  }
+}
+
 TEST_F(Schema, AcceptsWhatTheReaderAccepts) {
   EXPECT_TRUE(accepts(testing::design_example));
   EXPECT_TRUE(accepts(read(testing::design_example).input_json)) << "the input file with every default";

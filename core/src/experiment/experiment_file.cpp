@@ -116,7 +116,8 @@ FileKey runs_key(Reading& reading) {
           [&reading](const Node& node, Experiment& experiment) {
             read_runs(node, reading.defaults, reading.catalogue, reading.shared, experiment);
           },
-          [&catalogue = reading.catalogue](const Experiment& experiment) { return write_runs(experiment, catalogue); }};
+          [&catalogue = reading.catalogue](const Experiment& experiment) { return write_runs(experiment, catalogue); },
+          reading.searches};
 }
 
 /// A policy, or an object with its limit.
