@@ -26,6 +26,7 @@ diagnosis::Request analysis_request(const Request& request) {
   of_analysis.model = request.model;
   of_analysis.alpha = request.alpha;
   of_analysis.tolerance = request.tolerance;
+  of_analysis.from_scaffold = request.from_nothing;
   of_analysis.quick = request.quick;
   of_analysis.seed = request.seed;
   return of_analysis;

@@ -178,7 +178,7 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
       if (fit.status.ok() && fit.chi2 < base.fit.chi2) base.fit = fit;
     ended.insert(ended.end(), fits.begin(), fits.begin() + 12);  // the best one again is no second start
   }
-  if (promises(base.fit, no_fit))
+  if (!inquiry.request.from_scaffold && promises(base.fit, no_fit))
     throw BaseFitFailure(fmt::format(
         "diagnosis: the base model comes to no optimum: one more step promises to take {:.0f} % of |r|² = {:.4g}. Give "
         "its parameters initial values and bounds, and look at what `tunica run` finds",
