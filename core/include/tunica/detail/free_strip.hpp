@@ -204,8 +204,8 @@ inline bool solve_from_rest(const Pull& pull, double stretch, Scratch& scratch, 
 }
 
 /// Newton's method over the batch until every step is below `tolerance`. `u` lacks only the last step, which stays in
-/// the batch. Rows that do not converge are solved one by one; `lost` is the first row that cannot be followed from
-/// rest, or none. Such a row may end at a jump, which first_unsettled() detects.
+/// the batch. Rows that do not converge are solved one by one; `lost` is the first of them that cannot be followed from
+/// rest, or none. A row that was solved alone may end at a jump, which first_unsettled() detects.
 inline Status iterate(const Pull& pull, std::span<const double> stretch, double tolerance, Batch& batch,
                       std::span<double> u, std::optional<std::size_t>& lost) {
   const std::size_t n = stretch.size();

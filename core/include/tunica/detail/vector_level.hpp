@@ -90,7 +90,8 @@ inline VectorLevel best_vector_level() {
 /// The level of this library: −1 until it is first asked for.
 inline constinit std::atomic<int> chosen_vector_level = -1;
 
-/// Sets the level of this library from now on, for tests and benchmarks. A level above the processor's is ignored.
+/// Sets the level of this library from now on, for tests and benchmarks. A level above the processor's best
+/// one becomes that one.
 inline void use_vector_level(VectorLevel level) {
   const VectorLevel best = best_vector_level();
   chosen_vector_level.store(static_cast<int>(level < best ? level : best), std::memory_order_relaxed);

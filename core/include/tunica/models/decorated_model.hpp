@@ -13,7 +13,8 @@ namespace tunica {
 /// A base model in which a mechanism changes parts of the energy or adds one.
 ///
 /// The mechanism's parameters come after those of the base, the amplitude first. While the amplitude is at its null,
-/// the results are those of the base, bit for bit. Only parameter derivatives always come from the changed energy.
+/// the results are those of the base, bit for bit. A call that wants parameter derivatives is the exception: all of its
+/// results come from the changed energy.
 ///
 /// Parts of the base that stay as they are become ForwardedPart, changed ones a subclass of it, new ones AddedPart.
 /// Threads and failure: as Model. Ownership: shares the base with its forwarded parts.
