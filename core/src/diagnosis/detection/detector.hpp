@@ -29,8 +29,9 @@ struct Detection {
 ///
 ///   B = ln mean over candidates of Σ share · exp(T/2) · {1 two-sided, 2Φ(√T) one-sided},
 ///
-/// The largest score dominates B, but B has more power if several candidates respond to the same effect. The smaller of
-/// p_B and 4 p_Q is calibrated against its own distribution. Q detects shapes that no mechanism produces.
+/// The largest term of B is the largest score; B has more power than this score alone if several candidates respond to
+/// the same effect. The smaller of p_B and 4 p_Q is calibrated against its own distribution. Q detects shapes that no
+/// mechanism produces.
 class Detector {
  public:
   /// `draws` from noise_draws.

@@ -33,7 +33,8 @@ struct NoiseEstimate {
 NoiseEstimate encompassing_noise(const Evidence& evidence, const Fit& fit,
                                  const std::vector<const Eigen::VectorXd*>& signatures);
 
-/// The evidence under these sources of noise: the base is fitted again from its last point.
+/// The evidence under these sources of noise. The base is fitted again from its last point, and `estimated` becomes the
+/// basis of the estimate.
 Evidence restated(const Inquiry& inquiry, const Evidence& evidence, const NoiseEstimate& estimate);
 
 /// σ of every whitened row, 1 of rows that are no channel's; gross rows as their neighbours.

@@ -11,7 +11,7 @@ struct Moderation {
   double ratio = 1;    ///< prior variance over the square of the reference
 };
 
-constexpr double least_freedom = 1.5;  ///< of a variance estimated from residuals
+constexpr double least_freedom = 1.5;  ///< with fewer, a variance is not estimated from residuals at all
 
 /// Empirical Bayes (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3:3, 2004): with ratios s²/reference² of ν degrees of
 /// freedom each, and their true values scattered as d/χ²_d about one ratio,

@@ -46,7 +46,7 @@ struct Weightless {
   std::vector<Warning> warnings;
 };
 
-/// A run weights channels by their weights, a diagnosis by their noise. A channel of weight 0 is excluded from both.
+/// A run weights channels by their weights, a diagnosis by their noise. But a channel of weight 0 takes no part.
 Weightless without_weights(experiment::Experiment experiment, const std::vector<std::string>& tests,
                            const plugins::Catalogue& catalogue) {
   std::vector<Warning> warnings;
@@ -80,7 +80,7 @@ Weightless without_weights(experiment::Experiment experiment, const std::vector<
   return {std::move(experiment), std::move(warnings)};
 }
 
-/// Whether the base has memory, or a mechanism with memory was requested by name. Rows then keep their order.
+/// Whether a mechanism with memory was requested by name. Rows then keep their order, as under a base with memory.
 bool asks_for_memory(const Inquiry& inquiry) {
   const std::vector<std::string>& asked = inquiry.request.mechanisms;
   return std::any_of(asked.begin(), asked.end(),

@@ -21,7 +21,8 @@ constexpr double ahead_by = 6, near_within = 6;
 /// A mistake that explains nearly all of the misfit, and far more than any cause, becomes a question even if it leaves
 /// slightly more than noise. Noise is rarely stated to within a per cent.
 constexpr double nearly_clean = 1e-4, nearly_all = 0.95, far_ahead = 20;
-/// The penalty of a cause whose amplitude is implausible or at its bound. A factor of two counts for a gain.
+/// The penalty of a cause whose amplitude is implausible or at its bound. A factor of two is such an amplitude for
+/// a gain.
 constexpr double unbelievable = 20;
 constexpr std::size_t most_causes = 6;  ///< that are tested and listed
 

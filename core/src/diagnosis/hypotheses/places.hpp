@@ -29,7 +29,7 @@ struct Clock {
 };
 Clock clock_of(const experiment::Experiment& experiment, const experiment::RunEntry& run,
                const plugins::Catalogue& catalogue);
-/// Whether the loading rate of a test is unknown: its rows are a first loading, and have no time.
+/// Whether the loading rate of a test is unknown: its rows are taken as a first loading, and have no time.
 bool pace_is_open(const experiment::TestEntry& entry, const data::Dataset& dataset);
 
 bool needs_clock(const MechanismFactory& mechanism);

@@ -30,8 +30,8 @@ std::string result_document(const Diagnosis& diagnosis, const experiment::Experi
 /// The ambiguity set in words: "a (or b, c, much the same here)", "d"; of what acts together "a with b", "a with c".
 std::vector<std::string> explanations(const Claim& claim);
 
-/// The text on the terminal: what is wrong and where, the cause and its probability, its rivals, the gain, and the next
-/// measurement. `below_verdict`: lines directly below the verdict.
+/// The text on the terminal: what is wrong and where, the cause and how certain it is, its rivals, the gain, and the
+/// next measurement. `below_verdict`: lines directly below the verdict.
 text::StyledText summary(const Diagnosis& diagnosis, const text::StyledText& below_verdict = {});
 
 /// The experiment with the causes added, its parameters at their fitted values, one run of whitened least squares: the

@@ -198,8 +198,8 @@ std::string error_words(const HeldOut& block) {
   return fmt::format("{} → {} σ", size_of(block.before), size_of(block.after));
 }
 
-/// How the extension predicts unseen blocks: the predicted block with the largest improvement, and the block with the
-/// largest error.
+/// How the extension predicts unseen blocks: the predicted block with the largest improvement, and the block that it
+/// fails to predict with the largest error.
 std::string held_out_words(const Gain& gain) {
   const HeldOut *best = nullptr, *worst = nullptr;
   for (const HeldOut& block : gain.held_out) {

@@ -28,8 +28,9 @@ std::string amplitude_unit(const assembly::Assembly& base, const MechanismFactor
   return mechanism.parameters.front().unit;
 }
 
-/// The place where the mechanism's largest plausible amplitude has the largest effect. Of its nuisance settings, whose
-/// scales may differ by orders of magnitude, it takes the middle one. Null if the mechanism has no effect anywhere.
+/// The place where the mechanism's largest plausible amplitude has the largest effect, by the slope at the null. Of its
+/// nuisance settings, whose scales may differ by orders of magnitude, it takes the middle one. Null if the mechanism
+/// has no effect anywhere.
 const Direction* typical(const Hypotheses& hypotheses, std::size_t candidate) {
   struct Best {
     const Direction* direction;

@@ -96,8 +96,8 @@ double root_mean_square(const Eigen::VectorXd& r, const std::vector<Eigen::Index
 ///
 ///   |r|² of all − |r|² of the others, each at its own fit  ~  χ²(n)
 ///
-/// In a linear model this is rᵀ(I + J C Jᵀ)⁻¹ r of the predicted block, with C = (JᵀJ)⁻¹ of the others. It remains
-/// valid for nonlinear models, such as those with exponentials.
+/// In a linear model this is rᵀ(I + J C Jᵀ)⁻¹ r of the predicted block, with C = (JᵀJ)⁻¹ of the others. The
+/// difference also holds where exponentials make the error of a prediction nonlinear.
 double predictive_p(double all, double others, std::size_t n) {
   return numerics::chi_squared_above(std::max(all - others, 0.0), static_cast<double>(n));
 }

@@ -7,8 +7,8 @@ namespace tunica::diagnosis {
 
 /// The gain of the extension. In sample it is the decrease of |r|², beside the best gain under the null and the gain of
 /// the best rejected mechanism. Out of sample it predicts blocks that are left out of the fit: each test, each type of
-/// test, and the rows beyond 70 % of the range of the abscissa. A test that alone shows the effect is not listed,
-/// because the others cannot predict it.
+/// test, and the rows beyond 70 % of the range of the abscissa, from those below. A test that alone shows the effect is
+/// not listed, because the others cannot predict it.
 ///
 /// The p-value of a block is Chow's: |r|² of all rows at the fit of all, less |r|² of the others at theirs, is χ² of as
 /// many degrees of freedom as the block has rows.

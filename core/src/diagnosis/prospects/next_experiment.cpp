@@ -23,7 +23,7 @@ std::string isolating(const Inquiry& inquiry, const std::vector<std::string>& id
   return fmt::format("{}", fmt::join(switches, "; "));
 }
 
-/// The rivals that the data leave open, and errors of the rig, which an inspection of the rig settles.
+/// The causes of a claim that the data leave open, and errors of the rig, which an inspection of the rig settles.
 std::vector<std::string> unconfirmed(const Claim& claim) {
   constexpr double sure = 0.99;
   std::vector<std::string> ids;
