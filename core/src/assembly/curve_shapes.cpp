@@ -41,7 +41,8 @@ std::vector<data::Branch> branches(const std::vector<double>& path) {
 
 class CurveColumns {
  public:
-  /// `each_branch`: branches after the first loading and unloading also have their own shapes, for half of the rows.
+  /// `each_branch`: branches after the first loading and unloading also have their own shapes. All shapes together are
+  /// then at most half as many as the rows.
   CurveColumns(const std::vector<double>& abscissa, unsigned most, bool each_branch)
       : abscissa_(abscissa), most_(most), left_(abscissa.size() / 3), each_branch_(each_branch) {}
 

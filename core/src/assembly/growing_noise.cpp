@@ -8,7 +8,7 @@ namespace tunica::assembly {
 
 namespace {
 
-constexpr double least_fraction = 0.1;  ///< smallest reported part of the variance at the largest level
+constexpr double least_fraction = 0.1;  ///< of the variance at the largest level; a smaller growing part counts as none
 constexpr double next_to_none = 1e-9;   ///< degrees of freedom
 
 /// (level/largest level of the group)² of every row; 0 where the variance is known.

@@ -12,7 +12,7 @@ namespace tunica::assembly {
 
 /// Noise that grows with the level of the rows: σ² ∝ 1 + share · (level/largest level of the group)².
 struct GrowingNoise {
-  std::vector<double> share;        ///< by family of groups; 0 without clear evidence
+  std::vector<double> share;        ///< by family of groups; 0 if almost nothing indicates one
   std::vector<double> probability;  ///< of the alternatives; empty if levels are uninformative
   Eigen::MatrixXd variance;         ///< of a row (rows) if so (columns), over that by `share`; mean of a group one
 };

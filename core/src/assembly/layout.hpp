@@ -40,7 +40,7 @@ struct FreeParameter {
   /// Whether the file sets the bound or the initial value, rather than the owner's default.
   bool own_min = false, own_max = false, own_initial = false;
 
-  /// The kind of a bound: the user's choice, the owner's default, or an end of the distinct values.
+  /// The kind of a bound: the user's choice, the owner's default, or an end beyond which there is nothing new.
   enum class Bound { chosen, by_default, symmetry, physical };
   [[nodiscard]] Bound kind_of(bool upper) const;
 };

@@ -31,8 +31,8 @@ bool has_derivatives(const RunTest& test, const ModelDescription& model) {
   return model.axis_history_size > 0 && test.test->describe().path_derivatives && !off_the_path(test);
 }
 
-/// A test that assumes J = 1 takes only incompressible models; a test that changes the volume takes only compressible
-/// ones.
+/// A test that simulates J = 1 takes only incompressible models; a test whose load changes the volume takes only
+/// compressible ones. Other tests take both.
 void refuse_volume(const RunTest& test, const RunModel& model) {
   using Volume = TestDescription::Volume;
   const ModelDescription& description = model.model->describe();

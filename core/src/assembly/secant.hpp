@@ -29,8 +29,9 @@ struct SecantMemory {
 double parameter_scale(double value, const FreeParameter& parameter);
 
 /// Moves `point` to the values predicted at `at` by Broyden's update. Returns false if the Jacobian must be computed
-/// anew, because it predicted the change of the values badly or was updated often. If the cost has risen, the point
-/// stays: a search turns back from there, and a new Jacobian would be wasted.
+/// anew, because it predicted the change of the values badly or was updated often. If the cost has risen, it returns
+/// true even then, and after a bad prediction the point stays. A search turns back from there, so a new Jacobian would
+/// be wasted.
 bool update_secant(SecantPoint& point, const RunTest& test, std::span<const FreeParameter> parameters,
                    std::span<const double> at, std::span<const double> values, double cost);
 
