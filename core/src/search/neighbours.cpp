@@ -83,7 +83,7 @@ std::vector<Neighbour> neighbours_of(const assembly::Assembly& assembly, std::sp
 }
 
 /// Neighbours are evaluated in parallel. Only the lowest counts. Costly tests are therefore left out for an infeasible
-/// neighbour, and for one whose cheap tests alone exceed another neighbour.
+/// neighbour, and for one whose cheap tests alone cost more than another neighbour in all.
 void evaluate_neighbours(const assembly::Assembly& assembly, std::vector<Neighbour>& neighbours,
                          plugins::Clock::time_point deadline) {
   const auto evaluate = [&](Neighbour& neighbour, assembly::CostlyTests costly) {

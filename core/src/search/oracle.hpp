@@ -31,7 +31,7 @@ class Stopwatch {
     const double late = seconds - this->seconds();
     if (late > 0) before_ += late;
   }
-  /// The time between an earlier process's last evaluation and its end.
+  /// Adds the time that an earlier process lost in the call that ended it.
   void add(double seconds) { before_ += seconds; }
   /// The time at which it will show `seconds`.
   [[nodiscard]] std::chrono::steady_clock::time_point reaches(double seconds) const {

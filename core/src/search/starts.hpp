@@ -10,9 +10,9 @@
 
 namespace tunica::search {
 
-/// The problem of one of several independent searches. It keeps its evaluations until they are merged, and stops no
-/// later than the merged search. evaluations() and budget() count only its own evaluations, from the budget at the
-/// beginning of its block of starts.
+/// The problem of one of several independent searches. It keeps its evaluations until they are merged, and by its own
+/// counts never stops before the merged search would. evaluations() and budget() count only its own evaluations, from
+/// the budget at the beginning of its block of starts.
 class StartProblem : public Problem {
  public:
   StartProblem(SharedState& shared, Ledger ledger, std::uint64_t seed, std::vector<double> start,
