@@ -26,7 +26,7 @@ struct Facts {
 };
 
 /// checkpoint.json: the facts and the finished realisations. Finished realisations are not run again. The others are
-/// replayed from the journal (journal.hpp), which holds only the evaluations.
+/// replayed from the journal (journal.hpp); this needs only the evaluations themselves.
 struct Checkpoint {
   Facts facts;
   std::vector<std::pair<std::size_t, RealisationResult>> finished;  ///< task, result

@@ -31,8 +31,8 @@ class RunDirectory {
   bool is_new_ = false;
 };
 
-/// Results that are written into a new folder in one go and never resumed. If writing fails, the folder is removed: an
-/// incomplete folder would block the same command.
+/// Results that are written into a new folder in one go and never resumed. If they do not become complete, for lack of
+/// space or because of an error, nothing of them is left. An incomplete folder would block the same command.
 class NewResults {
  public:
   explicit NewResults(const RunDirectory& directory) : directory_(directory) {}
