@@ -28,7 +28,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-/// σ of every prediction as if it were measured; NaN if it is not stated. The statement of a channel is multiplied by
+/// σ of every prediction as if it were measured; NaN if it is unknown. The statement of a channel is multiplied by
 /// what its fitted rows have of it: less for means of replicates, more where χ² contradicts it.
 std::vector<double> deviations(const Question& question) {
   const assembly::Layout& layout = question.assembly.layout();
