@@ -32,7 +32,7 @@ namespace tunica::calibration {
 
 namespace {
 
-/// Removes the files of a run that ends before its first checkpoint: they contain no evaluation.
+/// Whether a folder holds only the files of a run that ended before its first checkpoint: they contain no evaluation.
 bool holds_a_beginning(const std::filesystem::path& folder) {
   return std::ranges::all_of(std::filesystem::directory_iterator(folder), [](const auto& entry) {
     const std::string name = entry.path().filename().string();

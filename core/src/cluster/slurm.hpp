@@ -29,7 +29,7 @@ struct Task {
   Phase phase = Phase::waiting;
 
   [[nodiscard]] bool alive() const { return phase == Phase::waiting || phase == Phase::running; }
-  /// It is held until it is released: by a user, or by Slurm after a failed start.
+  /// It is held by a user, or by Slurm after a failed start, and waits until it is released.
   [[nodiscard]] bool held() const;
 };
 

@@ -60,7 +60,7 @@ std::vector<RawName> raw_names(const std::vector<Observable>& observables) {
       add(observable, stretch_word, "green_strain", From::green_strain, "1");
     }
     if (observable.kind == Observable::Kind::stretch && observable.role == Observable::Role::channel) {
-      // The directions that the grips of a strip load; the machine does not measure stretches across it.
+      // The grips give the stretch along a strip under a load; the machine does not measure stretches across it.
       if (observable.name == stretch_word) {
         add(observable, stretch_word, "displacement", From::displacement, "mm");
         add(observable, stretch_word, "length", From::length, "mm");
