@@ -24,7 +24,7 @@ class Doorkeeper {
   /// Before the first request. Tokens are random, and those of a predecessor where there was one, see
   /// supervised::parked(); the listening socket has to be parked before.
   void opened_at(int port);
-  /// The file that the browser opens.
+  /// The address for the browser, with the token.
   [[nodiscard]] std::string address() const;
   /// Where files of the project are shown: "/view/<token>/".
   [[nodiscard]] std::string view() const { return "/view/" + tokens_.substr(length) + "/"; }
