@@ -104,6 +104,7 @@ class CommandLine(Case):
             for run in ("yeoh/lm", "neo_hooke/lm"):
                 self.assertEqual(program("export", result.directory, "--to", to, "--run", run, "--units", "mm-mN-kPa"),
                                  result.runs[run].card(to, units="mm-mN-kPa"))
+        self.assertEqual(result.card("calculix", units="mm-mN-kPa"), result.best.card("calculix", units="mm-mN-kPa"))
         with self.assertRaises(tunica.InputError):
             result.best.card("nastran")
         self.assertEqual(program("export", result.directory, "--to", "lsdyna", "--run", "yeoh/lm", "--density", "1000 kg/m3"),

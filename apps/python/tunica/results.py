@@ -263,6 +263,10 @@ class Result(Folder):
         """The draws of the best run, see Run.posterior."""
         return self.best.posterior
 
+    def card(self, to, **options):
+        """The material card of the best run, see Run.card."""
+        return self.best.card(to, **options)
+
     @property
     @once
     def ranking(self):
