@@ -43,6 +43,19 @@ def import_rig_file(page, file):
     page.see("Curve over the data")
 
 
+def all_cycles_by_one_click(page, folder):
+    """Of three cycles the last loading is taken, which the page says in the open, with a button that takes the history."""
+    loop = [*range(30), *range(30, 0, -1)]
+    rows = [f"{0.5 * t};{0.05 * k};{0.2 * k}" for t, k in enumerate(3 * loop + [0])]
+    (folder / "cycles.csv").write_text("\n".join(["Time [s];Force [N];Extension [mm]", *rows]))
+    page.go("data", "cycles.csv")
+    page.see("the last cycle, loading only")
+    page.click("Take all cycles")
+    page.see("rows: all cycles")
+    page.see("--cycle all")
+    page.until("return !document.body.innerText.includes('Take all cycles')")
+
+
 def move_sliders(page):
     """The curve is another one after each move; returns the times from a move to its frame, ms."""
     page.set("select", "neo_hooke")
@@ -346,6 +359,7 @@ def main():
             one_queue_a_connection(page)
             a_running_job_leads_to_its_page(page)
             tests_of_the_first_specimen_that_has_them(page)
+            all_cycles_by_one_click(page, folder)
             mistaken_experiment(options.source, folder)
             mistake_taken_back(page, folder)
             nothing_acts(page, folder, studio)

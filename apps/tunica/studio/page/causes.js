@@ -5,7 +5,7 @@ import { add, attempt, check, el, panel, put, shell } from "./dom.js";
 import { newest, reportLink, sheetLink, watchJob } from "./jobs.js";
 import { asksFile, headingOf, mistakesOf } from "./readings.js";
 import { ask, project, result } from "./server.js";
-import { capitalised, missed, number, percent, plain, quoted, unit } from "./words.js";
+import { capitalised, counted, missed, number, percent, plain, quoted, unit } from "./words.js";
 
 const groups = { material: 2, rig: 3, file: 4 };
 
@@ -17,7 +17,8 @@ export function budgetOf(budget, model) {
     list.push({ name: `+ ${plain(step.id)}`, from: step.rms, share: Math.max(before - step.rms, 0), note: `−${percent(before - step.rms)} → ${missed(step.rms)}`, colour: groups[step.group] ?? 1 });
     before = step.rms;
   }
-  return [bars("How much of the range is missed, and what takes it", list),
+  return [budget.steps.length && budget.rms <= budget.tolerance ? el("p", {}, `${capitalised(plain(model))} alone misses less than the tolerance of ${percent(budget.tolerance)}. What follows is more than noise, but small.`) : "",
+    bars("How much of the range is missed, and what takes it", list),
     el("p", {}, `Tolerance ${percent(budget.tolerance)} (${budget.tolerance_origin}): `, el("span", { class: `tag ${budget.adequate ? "good" : "bad"}` }, budget.adequate ? "reached" : "not reached"))];
 }
 
@@ -40,13 +41,14 @@ function accept(folder, entry, place) {
 async function found(folder, entry, name) {
   const { diagnosis, warnings } = await result(folder), place = el("div");
   const likely = diagnosis.causes ?? [], mistakes = await mistakesOf(name, diagnosis), first = asksFile(diagnosis);
-  add(place, el("p", { class: "verdict" }, headingOf(diagnosis)), [...(diagnosis.reasons ?? []), ...(diagnosis.explanations ?? [])].map((words) => el("p", {}, capitalised(words))),
+  const rivals = likely.length && diagnosis.explanations?.length === 1 ? [] : diagnosis.explanations ?? []; // a single one stands under Causes
+  add(place, el("p", { class: "verdict" }, headingOf(diagnosis)), [...(diagnosis.reasons ?? []), ...rivals].map((words) => el("p", {}, capitalised(/^\w+$/.test(words) ? plain(words) : words))),
     first ? mistakes : "", budgetOf(diagnosis.budget, diagnosis.base?.model ?? "the model"),
     diagnosis.admissibility?.where ? el("div", { class: "box bad" }, el("strong", {}, "Stability is lost: "), diagnosis.admissibility.where, diagnosis.admissibility.remedy ? `; ${plain(diagnosis.admissibility.remedy)} restores it` : "") : "",
     likely.length ? [el("h3", {}, "Causes"), el("ul", { class: "plain" }, likely.map(causeLine))] : "",
     first ? "" : mistakes, (entry?.leads_to ?? []).map((one) => accept(folder, one, place)),
     diagnosis.next_experiment?.description ? [el("h3", {}, "Next experiment"), el("p", {}, diagnosis.next_experiment.description)] : "",
-    warnings?.length ? el("details", {}, el("summary", {}, `${warnings.length} warnings`), el("ul", {}, warnings.map((line) => el("li", {}, line)))) : "",
+    warnings?.length ? el("details", {}, el("summary", {}, counted(warnings.length, "warning")), el("ul", {}, warnings.map((line) => el("li", {}, line)))) : "",
     el("div", { class: "row" }, reportLink(folder), sheetLink(folder)));
   return place;
 }

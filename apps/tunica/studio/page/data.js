@@ -14,7 +14,7 @@ const more = [
   ["area", "Area of the section", "in place of width and thickness, as 9 mm2"],
   ["diameter", "Diameter of a cylinder", "in place of width and thickness"],
   ["cycle", "Cycles to use", "last, all, none or a number"],
-  ["branch", "Branch of the cycles", "", [["", "both"], ["loading", "loading"], ["unloading", "unloading"]]],
+  ["branch", "Branch of the cycles", "", [["", "as the cycles suggest"], ["none", "both"], ["loading", "loading"], ["unloading", "unloading"]]],
   ["preload", "Preload at which the test begins", "as 0.05 N; cuts a slack beginning off"],
   ["direction", "Direction of the strip", "", [["", "not stated"], ["circumferential", "circumferential"], ["axial", "axial"]]],
   ["decimal", "Decimal mark", "", [["", "found in the file"], [".", "point"], [",", "comma"]]],
@@ -83,7 +83,7 @@ export async function dataPage(place, all, name) {
       title: column.title, x: signal.clock.title, y: column.title, height: 240,
       series: [{ name: column.title, x: signal.clock.values, y: column.values, colour: 1 }] }).node)));
     put(pictures, curves, raw);
-    put(understood, 
+    put(understood, cycles(look.understood ?? []),
       look.understood?.length ? el("ul", {}, look.understood.map((line) => el("li", {}, line))) : "",
       look.warnings?.length ? el("div", { class: "box bad" }, el("ul", {}, look.warnings.map((line) => el("li", {}, line)))) : "",
       look.notes?.length ? el("details", {}, el("summary", {}, "Notes on the files"), el("ul", {}, look.notes.map((line) => el("li", {}, line)))) : "");
@@ -91,6 +91,14 @@ export async function dataPage(place, all, name) {
     command.replaceChildren(shell(look.command + (output.value.trim() ? ` -o ${quoted(output.value.trim())}` : "")));
     write.disabled = Boolean(look.problem);
     document.documentElement.dataset.looked = String(Number(document.documentElement.dataset.looked ?? 0) + 1);
+  }
+
+  /** Rows that were left out because they are other cycles: what they could show, and a way to take them. */
+  function cycles(lines) {
+    const control = texts.get("cycle");
+    if (control.value.trim() || !lines.some((line) => line.includes("the last cycle, loading only"))) return "";
+    return el("div", { class: "box" }, el("p", {}, "The file has several cycles, and the last loading is taken. Softening, viscosity and a set that stays show in the whole history only: without it, the diagnosis may take them for faults of the rig."),
+      el("button", { type: "button", onclick: () => { control.value = "all"; look(); } }, "Take all cycles"));
   }
 
   let timer = 0, turn = 0;

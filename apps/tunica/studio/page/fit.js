@@ -39,10 +39,19 @@ function card(folder, place) {
     }) }, "Write the card")), said);
 }
 
+/** Those of starts that stopped at default bounds share a line: ten of them would hide the rest. */
+function warned({ warnings = [], warning_details: details = [] }) {
+  if (!warnings.length) return "";
+  const line = (words) => el("li", {}, words), starts = details.length === warnings.length ? warnings.filter((_, k) => details[k].kind === "stopped_at_default_bound") : [];
+  const folded = starts.length > 1 ? starts : [];
+  return el("div", { class: "box bad" }, el("strong", {}, "Warnings"), el("ul", {}, warnings.filter((one) => !folded.includes(one)).map(line)),
+    folded.length ? el("details", {}, el("summary", {}, `Starts stopped at default bounds, and a better point may lie beyond: ${folded.length} warnings`), el("ul", {}, folded.map(line))) : "");
+}
+
 /** What a run came to; also a part of the history. */
 export async function outcome(folder, name) {
   const document = await result(folder), parts = [];
-  if (document.warnings?.length) parts.push(el("div", { class: "box bad" }, el("strong", {}, "Warnings"), el("ul", {}, document.warnings.map((line) => el("li", {}, line)))));
+  parts.push(warned(document));
   for (const run of document.runs) {
     const size = run.best?.misfit_size;
     parts.push(el("h3", {}, run.run, " ", run.best?.stable === false ? el("span", { class: "tag bad" }, "unstable") : ""), el("p", {}, size ? [size.rms === 0 ? el("span", { class: "big" }, "nothing but noise is missed") : [el("span", { class: "big" }, percent(size.rms)), " of the range is missed beyond noise"]] : "", ` · objective ${number(run.best?.objective, 6)} · ${run.evaluations} evaluations · ${number(run.seconds, 2)} s`),

@@ -14,6 +14,7 @@ export const unit = (text) => (!text || text === "1" ? "" : ` ${text}`);
 export const axis = (name, text) => `${name.replaceAll("_", " ")}${!text || text === "1" ? "" : ` (${text})`}`;
 export const when = (seconds) => new Date(1000 * seconds).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
 export const plain = (name) => name.replaceAll("_", " ");
+export const counted = (count, name) => `${count} ${name}${count === 1 ? "" : "s"}`;
 export const capitalised = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
 /** A word as a shell reads it back. */
