@@ -66,6 +66,11 @@ TEST_F(Deciding, WhatIsFarAheadAndSureLeads) {
   budget.rough = true;
   expect({rig("gain", 0.9, 0.95)}, Verdict::unknown, {});
   budget.rough = false;
+  budget.cheaper = Budget::Cheaper{{"plate"}, 0.49};
+  expect({rig("gain", 0.9, 0.95)}, Verdict::unknown, {});
+  budget.cheaper->own_share = 0.51;
+  expect({rig("gain", 0.9, 0.95)}, Verdict::leading, {"gain"});
+  budget.cheaper.reset();
   // Whether the misfit matters is another question.
   budget.base.rms = 0.01;
   expect({rig("gain", 0.9, 0.95)}, Verdict::leading, {"gain"});

@@ -10,9 +10,11 @@
 namespace tunica::diagnosis::candidates_test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 using Side = MechanismFactory::Side;
 using Tests = std::vector<std::string>;
@@ -81,6 +83,28 @@ TEST(Candidates, AreThoseThatWereAskedForOrAll) {
       << "what may stand for anything is left to discovery";
   bed.request.mechanisms = {"p", "cubic"};
   EXPECT_THAT(ids(), ::testing::UnorderedElementsAre("cubic", "p"));
+}
+
+TEST(Candidates, AreThoseOfTheGroupsThatWereAskedForUnlessTheyAreNamed) {
+  TwoTests bed;
+  MechanismFactory wall = acting("wall", proportional);
+  wall.origin = MechanismFactory::Origin::material;
+  bed.put(wall);
+  bed.close();
+  const auto ids_in = [&bed](const std::vector<std::string>& groups) {
+    bed.request.groups = groups;
+    std::vector<std::string> found;
+    for (const Candidate& one : bed.all()) found.push_back(one.id);
+    return found;
+  };
+  EXPECT_THAT(ids_in({"material", "file"}), Contains("wall"));
+  EXPECT_THAT(ids_in({"material", "file"}), Not(Contains("offset")));
+  EXPECT_THAT(ids_in({"rig"}), Contains("offset"));
+  EXPECT_THAT(ids_in({"rig"}), Not(Contains("wall")));
+  EXPECT_EQ(ids_in({"material"}).size() + ids_in({"rig"}).size(), ids_in({"material", "rig"}).size());
+  EXPECT_THAT(ids_in({"file"}), IsEmpty());
+  bed.request.mechanisms = {"wall"};
+  EXPECT_THAT(ids_in({"rig"}), ElementsAre("wall"));
 }
 
 TEST(Candidates, AreCountedInTheProgress) {

@@ -64,6 +64,20 @@ TEST(Naming, OfWhatIsNotAllPrefersOneThatTakesMostOfIt) {
   }
 }
 
+// The first takes 100, less than half of 260 - 12. Nothing cheaper stands in for the test, so that no budget asks
+// again.
+TEST(Naming, OfACostlyTestTriesSeveralWhereNoBudgetAsksOfThem) {
+  for (const bool discovers : {true, false}) {
+    Contested causes({10, 10}, root(60));
+    causes.experiment.tests.front().type = "costly_curve";
+    causes.request.model = causes.model().name;
+    causes.request.discovers = discovers;
+    causes.with_rows(3).settled();
+    ASSERT_TRUE(causes.analysis.evidence.base->layout().has_costly_tests);
+    EXPECT_EQ(named_in(causes.named().claim), "m0 m1") << discovers;
+  }
+}
+
 TEST(Naming, PrefersSeveralThatLeaveNoiseToOneThatTakesMost) {
   const Explanation found = Contested({root(300), root(30), root(30)}).with_rows(3).settled().named();
   EXPECT_EQ(named_in(found.claim), "m0 m1 m2");
@@ -137,6 +151,10 @@ TEST(Naming, IsNotPossibleWithoutATrace) {
   EXPECT_EQ(causes.named().verdict, Verdict::unknown);
   EXPECT_THAT(reasons_of(causes.named()), ElementsAre(ReasonKind::no_trace));
   EXPECT_THAT(causes.named().reasons[0].text, HasSubstr("no mechanism of the catalogue"));
+  causes.request.groups = {"rig", "file"};
+  EXPECT_THAT(causes.named().reasons[0].text, HasSubstr("no mechanism of the group rig"));
+  causes.request.groups = {"file"};
+  EXPECT_THAT(causes.named().reasons[0].text, HasSubstr("\"groups\" leaves out material and rig"));
   causes.request.mechanisms = {"m0"};
   EXPECT_THAT(reasons_of(causes.named()), ElementsAre(ReasonKind::no_trace_of_requested));
   EXPECT_THAT(causes.named().reasons[0].text, HasSubstr("none of the requested mechanisms"));

@@ -200,6 +200,21 @@ TEST(LargestAmplitude, OfACurveIsThatOfItsStrongestHeight) {
   EXPECT_NEAR(largest, 20 * rubber.measured() / most, 1e-6 * largest);
 }
 
+/// By more than ten in ln of the evidence, and by a tenth of what 100 rows leave beyond noise.
+TEST(SetFit, IsClearlyBetterByEvidenceAndMisfitTogether) {
+  const auto leaving = [](double chi2, double log_evidence) {
+    SetFit one;
+    one.fit.chi2 = chi2;
+    one.fit.residuals = Eigen::VectorXd::Zero(100);
+    one.log_evidence = log_evidence;
+    return one;
+  };
+  const SetFit other = leaving(1100, -500);
+  EXPECT_TRUE(leaving(990, -489).is_clearly_better_than(other));
+  EXPECT_FALSE(leaving(1010, -489).is_clearly_better_than(other)) << "less than a tenth of 1000";
+  EXPECT_FALSE(leaving(990, -491).is_clearly_better_than(other)) << "hardly likelier";
+}
+
 /// What cannot act is not looked for: a law that fibres do not have, and fibres that no test stretches.
 TEST(LargestAmplitude, IsNoneOfWhatCannotAct) {
   const FittedRubber rubber;

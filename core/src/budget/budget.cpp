@@ -12,6 +12,7 @@
 #include "diagnosis/evidence/anisotropy.hpp"
 #include "diagnosis/evidence/encompassing_noise.hpp"
 #include "diagnosis/hypotheses/isotropy.hpp"
+#include "diagnosis/naming/naming.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "discovery/preparation.hpp"
 #include "text/misfit_words.hpp"
@@ -20,6 +21,8 @@ namespace tunica::budget {
 namespace {
 
 using diagnosis::Verdict;
+
+constexpr const char* terms_of_the_energy = "terms of the energy";
 
 /// Whether the verdict rests on causes or terms after which only noise is left.
 bool is_settled(const diagnosis::Diagnosis& d, const discovery::Discovery* search) {
@@ -42,8 +45,7 @@ bool is_settled(const diagnosis::Diagnosis& d, const discovery::Discovery* searc
 /// The model that terms can be added to; none: there is no single one.
 std::optional<discovery::Subject> subject_of(const diagnosis::Diagnosis& d, const diagnosis::Evidence& evidence,
                                              const plugins::Catalogue& catalogue) {
-  if (d.request.model.empty() || evidence.base->models().count() != 1) return std::nullopt;
-  if (!d.request.mechanisms.empty() || !catalogue.term_model()) return std::nullopt;
+  if (!diagnosis::can_search_terms(d.request, evidence, catalogue)) return std::nullopt;
   return discovery::Subject{evidence.experiment, evidence.run, d.request.model, false, catalogue};
 }
 
@@ -66,15 +68,28 @@ std::vector<std::string> ids_of(const std::vector<diagnosis::Addition>& addition
   return ids;
 }
 
-std::vector<Budget::Untried> not_looked_for(const diagnosis::Analysis& analysis, const plugins::Catalogue& catalogue,
+/// Groups that the request leaves out; mechanisms that are asked for by name may be of any.
+std::vector<Budget::Untried> left_out(const diagnosis::Request& request) {
+  std::vector<Budget::Untried> all;
+  if (!request.mechanisms.empty()) return all;
+  if (!request.considers(code_of(diagnosis::CauseGroup::material)))
+    all = {{"causes in the material", Budget::Lack::group}, {terms_of_the_energy, Budget::Lack::group}};
+  if (!request.considers(code_of(diagnosis::CauseGroup::rig)))
+    all.push_back({"causes in the rig", Budget::Lack::group});
+  return all;
+}
+
+std::vector<Budget::Untried> not_looked_for(const diagnosis::Diagnosis& d, const plugins::Catalogue& catalogue,
                                             bool searched) {
-  const diagnosis::Evidence& evidence = analysis.evidence;
+  const diagnosis::Evidence& evidence = d.analysis.evidence;
   std::set<std::string> unordered;
   for (const assembly::TestPast& one : assembly::unknown_pasts(evidence.experiment, evidence.run, catalogue))
     if (one.past == data::Past::order_unknown) unordered.insert(one.test);
-  std::vector<Budget::Untried> all;
-  if (evidence.base->layout().has_costly_tests && !searched) all.push_back({"terms of the energy", Budget::Lack::time});
-  for (const diagnosis::Candidate& one : analysis.hypotheses.candidates) {
+  std::vector<Budget::Untried> all = left_out(d.request);
+  const bool of_material = d.request.considers(code_of(diagnosis::CauseGroup::material));
+  if (evidence.base->layout().has_costly_tests && !searched && of_material)
+    all.push_back({terms_of_the_energy, Budget::Lack::time});
+  for (const diagnosis::Candidate& one : d.analysis.hypotheses.candidates) {
     if (!one.hypotheses.empty()) continue;
     const bool order = std::any_of(one.without_past.begin(), one.without_past.end(),
                                    [&](const std::string& test) { return unordered.contains(test); });
@@ -125,7 +140,7 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
   const MisfitSize size(analysis.evidence), own_size(d.analysis.evidence);
   Budget budget;
   budget.tolerance = tolerance_of(d.request, d.analysis.evidence);
-  if (d.analysis.alarm.raised) budget.not_looked_for = not_looked_for(d.analysis, catalogue, stands_in);
+  if (d.analysis.alarm.raised) budget.not_looked_for = not_looked_for(d, catalogue, stands_in);
   budget.base = own_size.of(d.analysis.evidence.fit);
   budget.base_channels = budget.rest_channels = own_size.channels(d.analysis.evidence.fit);
   budget.lopsided = lopsided_words(d.analysis.evidence, budget.base_channels);
@@ -140,10 +155,15 @@ Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* sear
     if (!budget.same_model.empty()) budget.same_with = std::move(causes);
   };
   const auto finish = [&](std::optional<Mixture> fitted) {
+    if (stands_in) budget.cheaper = Budget::Cheaper{search->stand_ins.names(), std::nullopt};
     if (fitted && stands_in) {
       own_inquiry.report("the causes with the tests themselves", 0.99);
       fitted = Mixer(own_inquiry, d.analysis, own_subject ? &*own_subject : nullptr).again(*fitted);
-      if (fitted) budget.steps.back().rest = own_size.of(fitted->fit);
+      if (fitted) {
+        budget.steps.back().rest = own_size.of(fitted->fit);
+        budget.cheaper->own_share =
+            1 - own_size.squares(fitted->fit) / std::max(own_size.squares(d.analysis.evidence.fit), 1e-300);
+      }
     }
     if (fitted) {
       budget.rest_channels = own_size.channels(fitted->fit);

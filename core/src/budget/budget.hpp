@@ -58,14 +58,22 @@ struct Budget {
     loading,  ///< the first rows lie far from rest
     volume,   ///< neither a lateral stretch nor a volume was measured
     size,     ///< the file does not say how large the specimen is
-    time      ///< a test is costly, and the search would take hours
+    time,     ///< a test is costly, and the search would take hours
+    group     ///< nothing: the request leaves its group out
   };
   struct Untried {
     std::string id;
     Lack lack;
   };
   std::string lopsided;  ///< which channels an estimated noise lets the fit follow, and which not; empty: none
-  std::vector<Untried> not_looked_for;    ///< mechanisms, or terms, that could be the cause
+  std::vector<Untried> not_looked_for;  ///< mechanisms, or terms, that could be the cause
+  /// The tests in whose place a cheaper method weighed the causes, and the share of the misfit that all steps take with
+  /// the tests themselves; none where they were not fitted.
+  struct Cheaper {
+    std::vector<std::string> tests;
+    std::optional<double> own_share;
+  };
+  std::optional<Cheaper> cheaper;
   std::shared_ptr<const Mixture> fitted;  ///< all steps; null where there are none
   /// What differs in the test that another state leads in; with_verdict_of() sets it.
   std::shared_ptr<const ProposedState> state;

@@ -104,6 +104,7 @@ Contenders with_another_state_judged(Contenders ties, double sure) {
 
 Decision decided(const Budget& budget) {
   if (budget.rough || !(budget.base.rms > 0)) return {};
+  if (budget.cheaper && budget.cheaper->own_share.value_or(0) < most_of_it) return {};
   const Contender* top = nullptr;
   for (const Contender& one : budget.contenders)
     if (believed(one) && (top == nullptr || one.share > top->share)) top = &one;

@@ -24,7 +24,9 @@ DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const dia
   const diagnosis::Progress last = [&](const std::string& stage, double share) {
     if (progress && share < 1) progress(stage, before_search + (1 - before_search) * share);
   };
-  DiagnosisAndSearch found{diagnosis::diagnose(experiment, request, catalogue, first), {}};
+  diagnosis::Request own = request;
+  own.discovers = discovers;
+  DiagnosisAndSearch found{diagnosis::diagnose(experiment, own, catalogue, first), {}};
   if (discovers) found.search = discovery::after(found.diagnosis, experiment, catalogue, last);
   if (found.search) found.diagnosis = discovery::with_verdict_of(*found.search, std::move(found.diagnosis));
   found.budget = budget_of(found.diagnosis, found.search ? &*found.search : nullptr, experiment, catalogue, last);

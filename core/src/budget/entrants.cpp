@@ -303,7 +303,9 @@ Entrants entrants_of(Field& field) {
 
   std::set<std::string> tests;
   for (const diagnosis::Curve& curve : evidence.curves) tests.insert(curve.test);
-  if (tests.size() > 1 && field.inquiry.request.mechanisms.empty() && !evidence.base->layout().has_costly_tests)
+  const diagnosis::Request& request = field.inquiry.request;
+  const bool states = request.mechanisms.empty() && request.considers(diagnosis::code_of(Entrant().group));
+  if (tests.size() > 1 && states && !evidence.base->layout().has_costly_tests)
     for (const std::string& test : tests) {
       auto alone = apart(evidence, test);
       if (!alone) continue;

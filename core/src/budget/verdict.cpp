@@ -50,11 +50,21 @@ std::string the_misfit(const Budget& budget) {
   return budget.base.rms <= budget.tolerance.share ? "a misfit that is within the tolerance" : "the misfit";
 }
 
-/// "; an unlisted smooth misfit alone would do as much with probability 0.24", where that is not excluded.
+/// "; that it is a smooth misfit without a listed cause has probability 0.24", where that is not excluded.
 std::string doubt_words(const Budget& budget) {
   if (budget.unlisted_probability <= 1 - sure_enough) return {};
-  return fmt::format("; an unlisted smooth misfit alone would do as much with probability {:.2f}",
+  return fmt::format("; that it is a smooth misfit without a listed cause has probability {:.2f}",
                      budget.unlisted_probability);
+}
+
+/// "; causes were weighed with a cheaper method of plate, and fitted together with the own one they take 91 %"
+std::string cheaper_words(const Budget& budget) {
+  if (!budget.cheaper) return {};
+  const auto& share = budget.cheaper->own_share;
+  return fmt::format("; causes were weighed with a cheaper method of {}, and {}",
+                     fmt::join(budget.cheaper->tests, ", "),
+                     share ? fmt::format("fitted together with the own one they take {}", percent(*share))
+                           : "were not fitted with the own one");
 }
 
 /// `stable`: the base is a material. Where it is none, what leads mends that too, and its form says nothing.
@@ -135,9 +145,8 @@ std::string unknown_words(const Budget& budget) {
   text += fmt::format("; the best single cause, {}{}, takes {}{}", best.id, place_of(best.place), percent(best.share),
                       price(best));
   if (best.belief == Belief::beyond) text += " with an amplitude that is beyond belief";
-  if (budget.unlisted_probability > 1 - sure_enough)
-    text += fmt::format("; that it is a smooth misfit without a listed cause has probability {:.2f}",
-                        budget.unlisted_probability);
+  if (const std::string doubt = doubt_words(budget); !doubt.empty())
+    text += doubt;
   else if (best.share < most_of_it)
     text += fmt::format(", and no {}cause takes half", all.front().is_state() ? "listed " : "");
   const Contender& most = all.front();
@@ -203,7 +212,7 @@ void ask_of_the_file(const Budget& budget, diagnosis::Diagnosis& d) {
       {ReasonKind::file_as_likely,
        fmt::format("is what the file says so? If {}, {} of the misfit is gone{}; try {}", budget.of_file.sentence,
                    percent(budget.of_file.share), most ? ", and no cause takes more" : "", budget.of_file.mend)},
-      {ReasonKind::unlisted_misfit, unknown_words(budget)}};
+      {ReasonKind::unlisted_misfit, unknown_words(budget) + cheaper_words(budget)}};
 }
 
 /// The best mechanism leaves more than the terms do: what was said of it is taken back. What concerns the data stays.
@@ -285,7 +294,7 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
   }
   if (decision.verdict == Verdict::unknown) {
     if (explanation.verdict == Verdict::discovered) return d;
-    explanation.reasons = {{ReasonKind::unlisted_misfit, unknown_words(budget)}};
+    explanation.reasons = {{ReasonKind::unlisted_misfit, unknown_words(budget) + cheaper_words(budget)}};
     add_anisotropy(budget, explanation);
     // Nothing is claimed of causes, so there is no extension to run.
     using diagnosis::WarningKind;
@@ -317,7 +326,7 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
     propose_state(budget, d.analysis, catalogue);
     explanation.reasons = {
         {ReasonKind::leads, leading_words(budget, decision, explanation.admissibility.stable.value_or(true)) +
-                                doubt_words(budget) + state_words(budget)}};
+                                doubt_words(budget) + state_words(budget) + cheaper_words(budget)}};
     if (budget.fitted && only_mechanisms(*budget.fitted)) {
       claim(inquiry, d.analysis, budget, *budget.fitted, explanation);
       d.prospects.gain = diagnosis::gain_of(inquiry, d.analysis, explanation.claim);
@@ -329,7 +338,8 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
         d.prospects.next = diagnosis::NextExperiment{fmt::format("To confirm {}.", how), {}, std::nullopt};
     return d;
   }
-  explanation.reasons = {{ReasonKind::several_lead, tie_words(budget, decision) + doubt_words(budget)}};
+  explanation.reasons = {
+      {ReasonKind::several_lead, tie_words(budget, decision) + doubt_words(budget) + cheaper_words(budget)}};
   if (!unseen.empty()) explanation.reasons.push_back(diagnosis::not_looked_for(unseen));
   add_anisotropy(budget, explanation);
   std::vector<std::string> how;

@@ -23,12 +23,14 @@ struct Request {
   bool admissibility = false;           ///< lost stability changes the verdict
   /// The tolerated misfit: observable (empty = all) and "2 %" of its range, or a quantity in its unit.
   std::vector<std::pair<std::string, std::string>> tolerance = {};
-  /// The base is the scaffold of a discovery from nothing. It is no answer, so that its fit may end short of an optimum.
+  /// The base is the scaffold of a discovery from nothing. It is no answer, so that its fit may end short of an
+  /// optimum.
   bool from_scaffold = false;
   bool quick = false;  ///< linear bootstrap only, refits of the likeliest causes only
   std::uint64_t seed = 1;
   std::vector<std::string> groups = {"material", "rig", "file"};  ///< where causes may lie
   double wrong_files = 0.1;                                       ///< expected share of files with a mistake
+  bool discovers = false;  ///< a search for terms of the energy follows where the cause is unknown
 
   [[nodiscard]] bool considers(const std::string& group) const {
     return std::find(groups.begin(), groups.end(), group) != groups.end();

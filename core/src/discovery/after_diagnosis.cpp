@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/hypotheses/isotropy.hpp"
+#include "diagnosis/naming/naming.hpp"
 #include "discovery/verdict.hpp"
 
 namespace tunica::discovery {
@@ -17,9 +18,7 @@ std::optional<Discovery> after(const diagnosis::Diagnosis& d, const experiment::
                                const plugins::Catalogue& catalogue, const diagnosis::Progress& progress) {
   const assembly::Assembly& base = *d.analysis.evidence.base;
   if (d.explanation.verdict != Verdict::unknown || !d.analysis.alarm.raised) return std::nullopt;
-  if (d.request.model.empty() || base.models().count() != 1) return std::nullopt;
-  if (!d.request.mechanisms.empty()) return std::nullopt;  // the catalogue was not asked
-  if (!catalogue.term_model()) return std::nullopt;
+  if (!diagnosis::can_search_terms(d.request, d.analysis.evidence, catalogue)) return std::nullopt;
   Request request = request_of(experiment);
   request.model = d.request.model;
   request.from_nothing = false;
@@ -32,8 +31,8 @@ std::optional<Discovery> after(const diagnosis::Diagnosis& d, const experiment::
   if (!base.layout().has_costly_tests)
     return discover_in({measured, d.request, catalogue, progress}, d.analysis, request, directions);
   const StandIns stand_ins(measured, d.analysis.evidence.run, catalogue);
+  if (!stand_ins.suffice(measured, d.analysis.evidence.run, catalogue)) return std::nullopt;
   const experiment::Experiment cheaper = stand_ins.cheaper(measured);
-  if (assembly::Assembly(cheaper, d.analysis.evidence.run, catalogue).layout().has_costly_tests) return std::nullopt;
   const diagnosis::Inquiry inquiry{cheaper, d.request, catalogue, progress};
   return discover_in(inquiry, diagnosis::analyse(inquiry, d.analysis.evidence.gross), request, directions, stand_ins);
 }

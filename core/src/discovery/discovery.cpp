@@ -73,12 +73,13 @@ std::vector<CommonFit> as_common(const std::vector<SetFit>& sets) {
   return all;
 }
 
-/// "in a field the terms without directions leave |r|² 4711, and fibres 815; the base has no directions"
-std::string directions_of_field(const SetFit& without, const SetFit& with) {
+/// "two directions answer differently: of those tried, the best terms without directions leave |r|² 4711, and those
+/// with fibres 815; the base has no directions"
+std::string directions_of_field(const SetFit& without, const SetFit& with, bool from_nothing) {
   return fmt::format(
-      "two directions answer differently: the best terms without directions leave |r|² {:.0f} in the "
-      "field, and those with fibres {:.0f}; the base has no directions",
-      without.chi2(), with.chi2());
+      "two directions answer differently: of those tried, the best terms without directions leave |r|² {:.0f}, and "
+      "those with fibres {:.0f}{}",
+      without.chi2(), with.chi2(), from_nothing ? "" : "; the base has no directions");
 }
 
 /// Fibres of an isotropic base are tried where its terms leave more than noise and the data show two directions; in a
@@ -108,10 +109,14 @@ SpecimenSearch search_one(const diagnosis::Inquiry& inquiry, const diagnosis::An
   if ((!found.anisotropy.empty() || in_field) && !clean && request.invariants.empty()) {
     inquiry.report("terms of fibres", 0.6);
     std::vector<SetFit> with_fibres = over(true, as_common(found.sets), false);  // none of these has fibres
-    if (!with_fibres.empty() &&
-        (found.sets.empty() || with_fibres.front().log_evidence > found.sets.front().log_evidence)) {
+    // A field says by the terms alone that two directions differ, so that there they must be clearly better.
+    const auto are_better = [in_field](const SetFit& with, const SetFit& without) {
+      return in_field && with.has_fibres() ? with.is_clearly_better_than(without)
+                                           : with.log_evidence > without.log_evidence;
+    };
+    if (!with_fibres.empty() && (found.sets.empty() || are_better(with_fibres.front(), found.sets.front()))) {
       if (in_field && !found.sets.empty() && with_fibres.front().has_fibres())
-        found.anisotropy = directions_of_field(found.sets.front(), with_fibres.front());
+        found.anisotropy = directions_of_field(found.sets.front(), with_fibres.front(), request.from_nothing);
       found.sets = std::move(with_fibres);
     }
   }

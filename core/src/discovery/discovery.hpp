@@ -7,15 +7,17 @@
 #include <vector>
 
 #include "diagnosis/detection/analysis.hpp"
+#include "diagnosis/evidence/stand_ins.hpp"
 #include "diagnosis/result.hpp"
 #include "discovery/curves.hpp"
 #include "discovery/judgement.hpp"
 #include "discovery/request.hpp"
 #include "discovery/set_fit.hpp"
-#include "discovery/stand_ins.hpp"
 
 /// Which terms the energy lacks, or is made of, where no mechanism of the catalogue says it: docs/discovery.md.
 namespace tunica::discovery {
+
+using diagnosis::StandIns;
 
 struct FoundTerm {
   std::string name;

@@ -28,6 +28,14 @@ struct SetFit {
   [[nodiscard]] bool has_fibres() const {
     return std::ranges::any_of(kinds, [](const KindPointer& kind) { return !kind->isotropic(); });
   }
+  /// By evidence and by at least a tenth of |r|² beyond noise.
+  [[nodiscard]] bool is_clearly_better_than(const SetFit& other) const {
+    constexpr double clear = 10, much = 0.1;
+    const auto beyond_noise = [](const SetFit& one) {
+      return one.chi2() - static_cast<double>(one.fit.residuals.size());
+    };
+    return log_evidence > other.log_evidence + clear && beyond_noise(*this) < (1 - much) * beyond_noise(other);
+  }
   [[nodiscard]] std::size_t parameter_count() const { return set ? set->assembly().layout().parameters.size() : 0; }
 };
 

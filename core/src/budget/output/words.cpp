@@ -24,13 +24,14 @@ std::string added(const std::vector<Step>& steps, std::size_t which) {
 
 /// "viscoelasticity (needs a time column); stress_softening (needs the order of the rows)"
 std::string untried(const std::vector<Budget::Untried>& all) {
-  constexpr std::array<std::pair<Budget::Lack, const char*>, 6> needs{
+  constexpr std::array<std::pair<Budget::Lack, const char*>, 7> needs{
       {{Budget::Lack::clock, "needs a time column"},
        {Budget::Lack::order, "needs the order of the rows"},
        {Budget::Lack::loading, "needs the loading before the first row"},
        {Budget::Lack::volume, "needs a measured lateral stretch or volume"},
        {Budget::Lack::size, "needs the length and width of the specimen in the file"},
-       {Budget::Lack::time, "take hours beside a costly simulation; try a richer base model"}}};
+       {Budget::Lack::time, "take hours beside a costly simulation; try a richer base model"},
+       {Budget::Lack::group, "left out by \"groups\""}}};
   std::vector<std::string> parts;
   for (const auto& [lack, what] : needs) {
     std::vector<std::string> ids;

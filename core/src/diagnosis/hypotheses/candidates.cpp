@@ -347,11 +347,12 @@ class CandidateSearch {
 
 std::vector<Candidate> candidates(const Inquiry& inquiry, const Evidence& evidence, const Projection& projection) {
   const CandidateSearch search(inquiry, evidence, projection);
+  // What is asked for by name is looked for in every group.
   const std::vector<std::string>& requested = inquiry.request.mechanisms;
   std::vector<const plugins::Catalogue::Entry<MechanismFactory>*> asked;
   for (const auto& [id, entry] : inquiry.catalogue.mechanisms())
     if (!entry.factory.parameters_of &&
-        (requested.empty() ? !entry.factory.question_only
+        (requested.empty() ? !entry.factory.question_only && inquiry.request.considers(code_of(group_of(entry.factory)))
                            : std::find(requested.begin(), requested.end(), id) != requested.end()))
       asked.push_back(&entry);
   std::vector<Candidate> found(asked.size());

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "diagnosis/evidence/stand_ins.hpp"
 #include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/naming/causes.hpp"
 #include "diagnosis/naming/credible.hpp"
@@ -23,6 +24,17 @@ Explanation unexplained(ReasonKind kind, std::string why) {
   found.verdict = Verdict::unknown;
   found.reasons.push_back({kind, std::move(why)});
   return found;
+}
+
+/// "no mechanism of the group rig leaves a trace in these data"
+std::string no_trace_words(const Request& request) {
+  const std::string material = code_of(CauseGroup::material), rig = code_of(CauseGroup::rig);
+  if (request.considers(material) && request.considers(rig))
+    return "no mechanism of the catalogue leaves a trace in these data";
+  if (!request.considers(material) && !request.considers(rig))
+    return "no mechanism was looked for, because \"groups\" leaves out material and rig";
+  return fmt::format("no mechanism of the group {} leaves a trace in these data",
+                     request.considers(rig) ? rig : material);
 }
 
 /// Every mechanism as the only explanation, likeliest first.
@@ -85,12 +97,19 @@ class Contest {
     return {claim_several(inquiry_, analysis_, groups, singles_), p_after, is_clean(p_after)};
   }
 
-  /// Where a simulation is costly, several are fitted together beside one that takes half of the misfit. The budget
-  /// asks of the others with a cheaper method.
+  /// Where a budget with a cheaper method follows, several are fitted together beside one that takes half of the
+  /// misfit. The budget asks of the others.
   [[nodiscard]] bool is_worth_company(const Single& single) const {
     const Fit& fit = analysis_.evidence.fit;
-    return !analysis_.evidence.base->layout().has_costly_tests ||
-           fit.chi2 - single.best->fit.chi2 > half_of_it * (fit.chi2 - static_cast<double>(fit.residuals.size()));
+    return fit.chi2 - single.best->fit.chi2 > half_of_it * (fit.chi2 - static_cast<double>(fit.residuals.size())) ||
+           !cheaper_budget_follows();
+  }
+  [[nodiscard]] bool cheaper_budget_follows() const {
+    const Evidence& evidence = analysis_.evidence;
+    const plugins::Catalogue& catalogue = inquiry_.catalogue;
+    return evidence.base->layout().has_costly_tests && inquiry_.request.discovers &&
+           can_search_terms(inquiry_.request, evidence, catalogue) &&
+           StandIns(evidence.experiment, evidence.run, catalogue).suffice(evidence.experiment, evidence.run, catalogue);
   }
 
   /// Where nothing explains it all. What one mechanism does to most of it is worth more than what three do to a little
@@ -172,10 +191,15 @@ Explanation concluded(const Inquiry& inquiry, const Analysis& analysis, const We
 
 }  // namespace
 
+bool can_search_terms(const Request& request, const Evidence& evidence, const plugins::Catalogue& catalogue) {
+  return request.mechanisms.empty() && request.considers(code_of(CauseGroup::material)) && !request.model.empty() &&
+         evidence.base->models().count() == 1 && catalogue.term_model() != nullptr;
+}
+
 Explanation named_causes(const Inquiry& inquiry, const Analysis& analysis) {
   const std::vector<Single> singles = fit_singles(inquiry, analysis);
   if (singles.empty() && inquiry.request.mechanisms.empty())
-    return unexplained(ReasonKind::no_trace, "no mechanism of the catalogue leaves a trace in these data");
+    return unexplained(ReasonKind::no_trace, no_trace_words(inquiry.request));
   if (singles.empty())
     return unexplained(ReasonKind::no_trace_of_requested,
                        "none of the requested mechanisms leaves a trace in these data");

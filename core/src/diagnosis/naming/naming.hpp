@@ -5,6 +5,10 @@
 
 namespace tunica::diagnosis {
 
+/// Whether terms of the energy can be searched for: there is one model to add them to, and the request leaves out
+/// neither the catalogue nor the group "material".
+bool can_search_terms(const Request& request, const Evidence& evidence, const plugins::Catalogue& catalogue);
+
 /// The explanation of the base fit's residuals: verdict, claim, ranking.
 ///
 /// The ambiguity set holds the likeliest explanations, with 92.5 % of the probability together, look-alikes counted

@@ -7,7 +7,7 @@
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
 
-namespace tunica::discovery {
+namespace tunica::diagnosis {
 
 /// Costly tests that have a cheaper method of the same simulation: a search over thousands of sets takes that, and what
 /// it finds is fitted with the tests themselves.
@@ -20,6 +20,9 @@ class StandIns {
 
   [[nodiscard]] bool empty() const { return tests_.empty(); }
   [[nodiscard]] std::vector<std::string> names() const;  ///< of the tests
+  /// Whether no test of the run is costly with them.
+  [[nodiscard]] bool suffice(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+                             const plugins::Catalogue& catalogue) const;
   /// With the cheaper methods, and with the own ones again. Everything else stays, the stated noise too.
   [[nodiscard]] experiment::Experiment cheaper(experiment::Experiment experiment) const;
   [[nodiscard]] experiment::Experiment restored(experiment::Experiment experiment) const;
@@ -32,4 +35,4 @@ class StandIns {
   std::vector<Test> tests_;
 };
 
-}  // namespace tunica::discovery
+}  // namespace tunica::diagnosis

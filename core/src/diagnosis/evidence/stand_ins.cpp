@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "discovery/stand_ins.hpp"
+#include "diagnosis/evidence/stand_ins.hpp"
 
 #include <algorithm>
 #include <utility>
 
+#include "assembly/assembly.hpp"
 #include "assembly/guide.hpp"
 
-namespace tunica::discovery {
+namespace tunica::diagnosis {
 namespace {
 
 template <class Tests, class OptionsOf>
@@ -34,6 +35,11 @@ std::vector<std::string> StandIns::names() const {
   return all;
 }
 
+bool StandIns::suffice(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+                       const plugins::Catalogue& catalogue) const {
+  return !empty() && !assembly::Assembly(cheaper(experiment), run, catalogue).layout().has_costly_tests;
+}
+
 experiment::Experiment StandIns::cheaper(experiment::Experiment experiment) const {
   return with(std::move(experiment), tests_, [](const Test& test) { return test.cheaper; });
 }
@@ -42,4 +48,4 @@ experiment::Experiment StandIns::restored(experiment::Experiment experiment) con
   return with(std::move(experiment), tests_, [](const Test& test) { return test.own; });
 }
 
-}  // namespace tunica::discovery
+}  // namespace tunica::diagnosis
