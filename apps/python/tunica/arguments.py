@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Arguments that are looked at before the core sees them."""
 import math
+import operator
 import os
 
 from .errors import InputError
@@ -17,6 +18,15 @@ def finite(value, what):
     if not math.isfinite(number):
         raise InputError(f"{what}: found {number}, expected a finite number")
     return number
+
+
+def port_number(value):
+    """The number of a port; 0 is any that is free."""
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise InputError(f"port: found {value!r}, expected a whole number; give one, or 0 for any port that is "
+                         "free") from None
 
 
 def text(value, what):

@@ -9,7 +9,7 @@ import tempfile
 
 from . import _core
 from ._installation import PROGRAM
-from .arguments import path
+from .arguments import path, port_number
 from .errors import InputError
 from .library import _options, _paths
 
@@ -78,7 +78,7 @@ def studio(folder=".", *, port=0, browser=True):
         words += ["--plugin-path", os.path.abspath(plugins)]
     if _options["allow_world_writable"]:
         words.append("--allow-world-writable-plugins")
-    words += ["studio", path(folder, "studio()"), "--port", str(int(port)), *([] if browser else ["--no-browser"])]
+    words += ["studio", path(folder, "studio()"), "--port", str(port_number(port)), *([] if browser else ["--no-browser"])]
     with tempfile.TemporaryFile("w+") as said:  # a pipe whose reader is gone would end the program
         process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=said, text=True, start_new_session=True)
         address = process.stdout.readline().strip()
