@@ -2,6 +2,7 @@
 #include "print_page.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <initializer_list>
 #include <sstream>
@@ -10,27 +11,36 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "data/nearest.hpp"
 #include "execution/files.hpp"
+#include "execution/interrupt.hpp"
 #include "fresh_process.hpp"
+#include "report/html.hpp"
 #include "report/report.hpp"
+#include "supervisor.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
 
 namespace {
 
-/// A folder that is gone with what is in it.
+/// A browser that opens a window, or hangs, would never end.
+constexpr std::chrono::seconds print_limit{120};
+
+/// A folder that is gone with what is in it, also where this process is ended in the middle.
 struct TemporaryFolder {
   TemporaryFolder() {
     std::string pattern = (std::filesystem::temp_directory_path() / "tunica-print-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) throw execution::WriteFailure(pattern, errno);
-    path = pattern;
+    path = std::filesystem::absolute(pattern);
+    supervised::unfinished({path}, path);
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   ~TemporaryFolder() {
     std::error_code left;
     std::filesystem::remove_all(path, left);
+    supervised::unfinished({});
   }
   std::filesystem::path path;
 };
@@ -54,14 +64,16 @@ std::string browser() {
   if (found.empty())
     throw InputError(
         "--pdf: a browser prints the page, and found none of chromium, google-chrome and microsoft-edge on PATH; "
-        "install one (Debian: chromium), name it in TUNICA_BROWSER, or open report.html and print it");
+        "install one (Debian: chromium), name it in TUNICA_BROWSER, or make the page with `tunica report DIR`, open it "
+        "and print it");
   return found;
 }
 
 }  // namespace
 
-void print_report(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& file) {
+bool print_report(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& file) {
   const std::string program = browser();
+  const execution::InterruptWatch interrupts;
   const TemporaryFolder scratch;
   const auto page = scratch.path / "report.html", printed = scratch.path / "report.pdf";
   execution::write_atomically(page, report::report(folders, scratch.path));
@@ -74,16 +86,19 @@ void print_report(const std::vector<std::filesystem::path>& folders, const std::
                                  "--user-data-dir=" + (scratch.path / "profile").string(),
                                  "--print-to-pdf=" + printed.string()};
   if (::geteuid() == 0) words.emplace_back("--no-sandbox");  // Chromium has none for root
-  words.push_back("file://" + page.string());
-  const Answer answer = ask_program(program, words);
+  words.push_back("file://" + report::address(page.string()));
+  const Answer answer = ask_program(program, words, print_limit);
+  if (execution::InterruptWatch::interrupted()) return false;
   std::string text;
   if (std::error_code none; std::filesystem::exists(printed, none)) text = execution::read_text(printed);
   if (!answer.problem.empty() || !text.starts_with("%PDF"))
     throw InputError(
-        fmt::format("--pdf: {} has printed no PDF{}; name another browser in TUNICA_BROWSER, or open "
-                    "report.html and print it",
-                    program, answer.problem.empty() ? "" : ": " + answer.problem));
+        fmt::format("--pdf: {} has printed no PDF{}{}; name another browser in TUNICA_BROWSER, or make the page with "
+                    "`tunica report DIR`, open it and print it",
+                    program, answer.problem.empty() ? "" : ": " + answer.problem,
+                    answer.said.empty() ? "" : fmt::format(" ('{}')", data::excerpt(answer.said))));
   execution::write_atomically(file, text);
+  return true;
 }
 
 }  // namespace tunica::app

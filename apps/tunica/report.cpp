@@ -12,6 +12,7 @@
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "print_page.hpp"
+#include "text/aside.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
 
@@ -37,9 +38,14 @@ std::filesystem::path folder_of(const char* option, const std::filesystem::path&
 
 int make_report(const ReportOptions& options) {
   const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
+  const std::filesystem::path file = options.file;
+  const auto beside = options.file.empty() ? std::filesystem::path() : folder_of("-o", file, "report.html");
   if (!options.printed.empty()) {
     static_cast<void>(folder_of("--pdf", options.printed, "report.pdf"));
-    print_report(folders, options.printed);
+    if (!print_report(folders, options.printed)) {
+      text::aside("interrupted; nothing is printed\n");
+      return interrupted;
+    }
     answer("{}\n", options.printed);
     if (options.file.empty()) return done;
   }
@@ -49,8 +55,6 @@ int make_report(const ReportOptions& options) {
   }
   if (options.file.empty())
     throw InputError("several folders make one report: say with -o where it goes, for example -o comparison.html");
-  const std::filesystem::path file = options.file;
-  const auto beside = folder_of("-o", file, "report.html");
   execution::write_atomically(file, report::report(folders, beside));
   answer("{}\n", file.string());
   return done;
@@ -64,7 +68,8 @@ void add_report(CLI::App& app, GlobalOptions&, Action& action) {
   verb->add_option("folders", options->folders, "Folders that run, diagnose or simulate have written")
       ->required()
       ->type_name("DIR");
-  verb->add_option("-o,--output", options->file, "The file to write (default for one folder: DIR/report.html)")
+  verb->add_option("-o,--output", options->file,
+                   "The file to write (default for one folder without --pdf: DIR/report.html)")
       ->type_name("FILE");
   verb->add_option("--pdf", options->printed, "Print it into this file, by Chromium, Chrome or Edge")
       ->type_name("FILE");
