@@ -50,6 +50,20 @@ TEST_F(RigKeys, BecomeTyped) {
   EXPECT_EQ(again.input_json, experiment.input_json);
 }
 
+TEST_F(RigKeys, KeepAStatedSignOfCompression) {
+  const std::string with_sizes = std::string(sizes) + ", ";
+  for (const char* said : {R"("compression": "negative")", R"("compression": {"Way": "negative"})"}) {
+    const auto experiment = read(block(with_sizes + said));
+    const auto again = read(experiment.input_json);
+    const data::CompressionPositive& compression = again.test("circumferential_strip").data.compression;
+    EXPECT_TRUE(compression.said) << said;
+    EXPECT_FALSE(compression.all) << said;
+    EXPECT_TRUE(compression.columns.empty()) << said;
+    EXPECT_EQ(again.input_json, experiment.input_json);
+  }
+  EXPECT_FALSE(read(read(block(sizes)).input_json).test("circumferential_strip").data.compression.said);
+}
+
 TEST_F(RigKeys, RefuseSizesThatCannotBe) {
   EXPECT_EQ(strip(R"("specimen": {"width": 4, "thickness": "-1.2 mm", "gauge_length": 10})"),
             "experiment.json: the thickness is -1.2 mm (/tests/circumferential_strip/data/specimen/thickness, line 22, "
@@ -63,6 +77,11 @@ TEST_F(RigKeys, RefuseSizesThatCannotBe) {
   expect_within(strip(R"("specimen": {"area": 4, "width": 2, "gauge_length": 1})"), "the specimen has \"area\", and");
   expect_within(strip(R"("specimen": {"area": 4, "gauge_length": "preload"})"), "there is no \"preload\"");
   expect_within(strip(R"("specimen": {"area": "4 mm", "gauge_length": 1})"), "cannot be converted to 'mm2'");
+  for (const char* idle : {R"({})", R"({"width": 4})", R"({"gauge_length": "preload"})"})
+    expect_within(
+        strip(R"("preload": "0.1 N", "specimen": {"width": 4, "thickness": 1, "gauge_length": 10, "transverse": )" +
+              std::string(idle) + "}"),
+        "the sizes along 'transverse' change nothing in test 'circumferential_strip'");
 }
 
 TEST_F(RigKeys, RefuseWhatTheyDoNotKnow) {

@@ -39,7 +39,8 @@ TableKey delimiter_key() {
                  &data::TableLayout::delimiter, [](const Node& node) {
                    static const std::map<std::string, char> delimiters = {{",", ','},   {";", ';'},     {"tab", '\t'},
                                                                           {"\t", '\t'}, {"space", ' '}, {" ", ' '}};
-                   const auto found = delimiters.find(node.text("a delimiter"));
+                   const std::string& mark = node.text("a delimiter");
+                   const auto found = delimiters.find(mark);
                    if (found == delimiters.end()) node.fail_expected("\",\", \";\", \"tab\" or \"space\"");
                    return found->second;
                  });
@@ -116,8 +117,11 @@ TableKey compression_key() {
               if (sign.one_of(signs, "sign of compression") == "positive") compression.columns.push_back(column);
           },
           [](const DataRequest& data) {
-            Json json = data.compression.all ? Json("positive") : Json();
-            for (const std::string& column : data.compression.columns) json[column] = "positive";
+            const data::CompressionPositive& compression = data.compression;
+            if (compression.all) return Json("positive");
+            if (compression.said && compression.columns.empty()) return Json("negative");
+            Json json;
+            for (const std::string& column : compression.columns) json[column] = "positive";
             return json;
           }};
 }

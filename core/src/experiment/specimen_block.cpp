@@ -83,6 +83,19 @@ std::vector<Key<Specimen>> keys_along(const std::string& direction, bool at_prel
                      &data::Sizes::grip_distance, "grip distance")};
 }
 
+/// The sizes along a direction. An empty block makes an entry too: along an unmapped direction it is refused.
+Key<Specimen> direction_key(const std::string& direction, bool at_preload) {
+  Key<Specimen> key =
+      block_key(direction, Block<Specimen>(fmt::format("the specimen along '{}'", direction),
+                                           "Sizes along this direction.", keys_along(direction, at_preload))
+                               .expecting("sizes along a direction, {\"width\": …, \"gauge_length\": …},"));
+  key.read = [direction, read = key.read](const Node& node, Specimen& specimen) {
+    sizes_at(direction, specimen);
+    read(node, specimen);
+  };
+  return key;
+}
+
 }  // namespace
 
 Block<Specimen> specimen_block(const std::vector<Observable>& observables, bool at_preload) {
@@ -93,10 +106,7 @@ Block<Specimen> specimen_block(const std::vector<Observable>& observables, bool 
     keys.push_back(size_key("height", "Distance of the plates [mm].", &Specimen::height, "mm"));
   for (Key<Specimen>& key : keys_along("", at_preload)) keys.push_back(std::move(key));
   for (const std::string& direction : data::directions_of(observables))
-    keys.push_back(
-        block_key(direction, Block<Specimen>(fmt::format("the specimen along '{}'", direction),
-                                             "Sizes along this direction.", keys_along(direction, at_preload))
-                                 .expecting("sizes along a direction, {\"width\": …, \"gauge_length\": …},")));
+    keys.push_back(direction_key(direction, at_preload));
   return Block<Specimen>("the specimen", "Sizes of the unloaded specimen.", std::move(keys))
       .expecting("the sizes of the specimen, {\"width\": …, \"thickness\": …, \"gauge_length\": …},");
 }
