@@ -3,6 +3,8 @@
 // should.
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <new>
 
 #include <gmock/gmock.h>
@@ -10,6 +12,7 @@
 #include "diagnosis/made_up_causes.hpp"
 #include "diagnosis/measured.hpp"
 #include "diagnosis/prospects/designs.hpp"
+#include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::diagnosis {
@@ -87,10 +90,10 @@ struct WithTubes : trial::Measured {
 TEST(PlannedTests, InflateAMeasuredTubeAtAnotherAxialStretch) {
   const Planned planned(WithTubes({{"tube", 1.4}, {"short", 1.05}}));
   EXPECT_THAT(planned.descriptions(), SizeIs(6 + 3));
-  EXPECT_EQ(planned.all[7].description, "the tube of 'tube' inflated at an axial stretch of 1.3");
-  EXPECT_EQ(planned.all[8].description, "the tube of 'tube' inflated at an axial stretch of 1.5");
-  EXPECT_EQ(planned.all[6].description, "the tube of 'short' inflated at an axial stretch of 1.15") << "none below 1";
-  const Design& design = planned.all[7];
+  EXPECT_EQ(planned.all[4].description, "the tube of 'tube' inflated at an axial stretch of 1.3");
+  EXPECT_EQ(planned.all[5].description, "the tube of 'tube' inflated at an axial stretch of 1.5");
+  EXPECT_EQ(planned.all[3].description, "the tube of 'short' inflated at an axial stretch of 1.15") << "none below 1";
+  const Design& design = planned.all[4];
   const TestRows& rows = design.test->rows();
   EXPECT_THAT(rows.channels, ElementsAre("outer_diameter_stretch", "axial_force"));
   ASSERT_EQ(rows.count, 20u);
@@ -100,7 +103,7 @@ TEST(PlannedTests, InflateAMeasuredTubeAtAnotherAxialStretch) {
     EXPECT_EQ(design.sd.at(20 + i), 0.4);
   }
   // At a larger axial stretch the tube is thinner from the beginning.
-  EXPECT_LT(planned.predicted(planned.all[8])[0], planned.predicted(design)[0]);
+  EXPECT_LT(planned.predicted(planned.all[5])[0], planned.predicted(design)[0]);
 }
 
 TEST(PlannedTests, InflateNoTubeWithoutPressureOrOfSeveralLayers) {
@@ -172,7 +175,7 @@ TEST(PlannedTests, ReachNoFurtherThanEightTimesTheLength) {
   measured.experiment["models"]["gho"] = {{"type", "neo_hooke"},
                                           {"parameters", {{"mu", {{"min", 1}, {"max", 100}, {"initial", 20}}}}}};
   const Planned planned(measured, {20});
-  EXPECT_THAT(planned.descriptions().front(), HasSubstr("to a stretch of 8,"));
+  EXPECT_THAT(planned.descriptions(), Contains(HasSubstr("to a stretch of 8,")));
 }
 
 TEST(PlannedTests, PullTheStripAt45DegreesFromItsFirstLength) {
@@ -205,14 +208,24 @@ class Bare final : public tunica::Test {
   TestRows rows_;
 };
 
-/// No plugin but those of the fakes, and one that calls itself as it is told.
+/// A curve of three rows.
+PlannedTest a_curve() { return {"a curve", {}, {{"x", even_steps(0, 1, 3)}}, {}, {"y"}}; }
+
+/// The fakes, and one more type of test that plans as it is told.
 struct OtherShelf : MadeUpCauses {
   OtherShelf() : MadeUpCauses({3}, at_rows(3, {})) { close(); }
-  void add_test_type(TestFactory factory, const std::string& type = "uniaxial") {
-    factory.type = type;
+  void add_plan(std::function<std::vector<PlannedTest>(const PlanningScope&)> plan,
+                std::function<std::unique_ptr<tunica::Test>(const TestSetup&)> create = {}) {
+    TestFactory factory = shelf.tests().at("curve").factory;
+    factory.type = "other";
+    factory.plan = std::move(plan);
+    if (create) factory.create = std::move(create);
     plugins::Catalogue::Registration stage;
     stage.add(std::move(factory));
     shelf.commit(std::move(stage), "other 1");
+  }
+  void add_plan(PlannedTest one, std::function<std::unique_ptr<tunica::Test>(const TestSetup&)> create = {}) {
+    add_plan([one](const PlanningScope&) { return std::vector{one}; }, std::move(create));
   }
   [[nodiscard]] std::vector<Design> planned() const {
     return designs(inquiry(), analysis.evidence, *analysis.evidence.base, analysis.evidence.fit.free);
@@ -223,51 +236,87 @@ TEST(PlannedTests, LeaveOutWhatNoPluginProvidesOrRefuses) {
   OtherShelf none;
   EXPECT_THAT(none.planned(), IsEmpty());
   OtherShelf refusing;
-  TestFactory factory = refusing.shelf.tests().at("curve").factory;
-  factory.create = [](const TestSetup&) -> std::unique_ptr<tunica::Test> { throw InputError("not so"); };
-  refusing.add_test_type(factory);
+  refusing.add_plan(a_curve(), [](const TestSetup&) -> std::unique_ptr<tunica::Test> { throw InputError("not so"); });
   EXPECT_THAT(refusing.planned(), IsEmpty());
   OtherShelf exhausted;
-  factory.create = [](const TestSetup&) -> std::unique_ptr<tunica::Test> { throw std::bad_alloc(); };
-  exhausted.add_test_type(factory);
+  exhausted.add_plan(a_curve(), [](const TestSetup&) -> std::unique_ptr<tunica::Test> { throw std::bad_alloc(); });
   EXPECT_THROW((void)exhausted.planned(), std::bad_alloc);
 }
 
-// "gain" of a curve has no null and begins at 1, "tilt" has the null 0; the angle goes into the first one.
+// "gain" of a curve has no null and begins at 1, "tilt" has the null 0.
 TEST(PlannedTests, HaveTheirParametersAtTheirNulls) {
   OtherShelf causes;
-  causes.add_test_type(causes.shelf.tests().at("curve").factory);
+  PlannedTest tilted = a_curve();
+  tilted.parameters = {{"tilt", 0.5}};
+  causes.add_plan([tilted](const PlanningScope&) { return std::vector{a_curve(), tilted}; });
   const std::vector<Design> planned = causes.planned();
-  ASSERT_THAT(planned, SizeIs(3));
+  ASSERT_THAT(planned, SizeIs(2));
   EXPECT_THAT(planned[0].parameters, ElementsAre(1, 0));
-  EXPECT_THAT(planned[2].parameters, ElementsAre(45, 0));
+  EXPECT_THAT(planned[1].parameters, ElementsAre(1, 0.5));
   fakes::set_behaviour([](double, std::span<double>, Status& status) { status = Status::failed("not today"); });
   EXPECT_THAT(causes.planned(), IsEmpty()) << "what cannot be simulated";
+  fakes::set_behaviour({});
 }
 
-TEST(PlannedTests, TurnAStripWithoutParametersNowhere) {
+TEST(PlannedTests, NeedNoParameters) {
   OtherShelf causes;
-  TestFactory factory = causes.shelf.tests().at("curve").factory;
-  factory.create = [](const TestSetup& setup) -> std::unique_ptr<tunica::Test> {
-    return std::make_unique<Bare>(setup);
-  };
-  causes.add_test_type(factory);
+  causes.add_plan(
+      a_curve(), [](const TestSetup& setup) -> std::unique_ptr<tunica::Test> { return std::make_unique<Bare>(setup); });
   const std::vector<Design> planned = causes.planned();
-  ASSERT_THAT(planned, SizeIs(3));
-  EXPECT_THAT(planned[2].parameters, IsEmpty());
+  ASSERT_THAT(planned, SizeIs(1));
+  EXPECT_THAT(planned[0].parameters, IsEmpty());
 }
 
-// A curve with an axial stretch is no tube, and a tube without one cannot be planned at another.
-TEST(PlannedTests, InflateOnlyTubesThatAreHeldAtAnAxialStretch) {
+// A plan that is wrong is a fault of its plugin, which the message names with the plan, what was found and expected.
+TEST(PlannedTests, RefuseAPlanThatCannotBeMeant) {
+  const auto refused = [](const std::function<void(PlannedTest&)>& spoil) -> std::string {
+    PlannedTest plan = a_curve();
+    spoil(plan);
+    OtherShelf causes;
+    causes.add_plan(plan);
+    try {
+      (void)causes.planned();
+    } catch (const plugins::PluginFailure& failure) {
+      return failure.what();
+    }
+    return "nothing was refused";
+  };
+  EXPECT_THAT(
+      refused([](PlannedTest& plan) { plan.abscissae.emplace_back("x2", even_steps(0, 1, 2)); }),
+      HasSubstr("plugin 'other 1': its plan 'a curve' for tests 'other' has 2 values in 'x2', expected 3, as in "
+                "'x'; correct what its plan returns"));
+  EXPECT_THAT(refused([](PlannedTest& plan) { plan.time = {1}; }), HasSubstr("has 1 value in 'time', expected 3"));
+  EXPECT_THAT(refused([](PlannedTest& plan) { plan.abscissae.front().second.clear(); }),
+              HasSubstr("has 0 values in 'x', expected one or more"));
+  EXPECT_THAT(refused([](PlannedTest& plan) { plan.abscissae.clear(); }), HasSubstr("has no abscissa"));
+  EXPECT_THAT(refused([](PlannedTest& plan) {
+                plan.options = {{"speed", 1.0}};
+              }),
+              HasSubstr("sets the option 'speed', and the test has no such option"));
+  EXPECT_THAT(refused([](PlannedTest& plan) {
+                plan.parameters = {{"tilr", 1.0}};
+              }),
+              HasSubstr("sets the parameter 'tilr', and the test has no such parameter. Did you mean 'tilt'?"));
+}
+
+// Tests of the type that were made, on one model throughout; those with layers are not told.
+TEST(PlannedTests, AreToldOfTheTestsOfTheirType) {
   OtherShelf causes;
-  causes.add_test_type(causes.shelf.tests().at("curve").factory, "thick_wall_pressurisation");
+  std::vector<std::string> made;
+  causes.add_plan([&made](const PlanningScope& scope) {
+    for (const PlanningScope::Made& one : scope.made) made.push_back(one.name);
+    return std::vector<PlannedTest>{};
+  });
+  (void)causes.planned();
+  EXPECT_THAT(made, IsEmpty());
   experiment::TestEntry& entry = causes.analysis.evidence.experiment.tests.front();
-  entry.options.set("axial_stretch", 1.4);
-  EXPECT_THAT(causes.planned(), IsEmpty());
-  entry.type = "thick_wall_pressurisation";
-  EXPECT_THAT(causes.planned(), SizeIs(2));
-  entry.options = {};
-  EXPECT_THAT(causes.planned(), IsEmpty());
+  entry.type = "other";
+  (void)causes.planned();
+  EXPECT_THAT(made, ElementsAre(entry.name));
+  made.clear();
+  entry.layers = {{"gho", 0.2}, {"gho", 0.28}};
+  (void)causes.planned();
+  EXPECT_THAT(made, IsEmpty());
 }
 
 }  // namespace

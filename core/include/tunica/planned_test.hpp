@@ -9,8 +9,9 @@
 #include "tunica/options.hpp"
 
 /// \file
-/// Experiments that a lab could make next, as TestFactory::plan has them. A plan is a function of what is known: it keeps
-/// nothing, and several threads may ask at once. What it throws ends the diagnosis with the name of its plugin.
+/// Experiments that a lab could make next, as TestFactory::plan has them. A plan is a function of what is known: it
+/// keeps nothing, and several threads may ask at once. What it throws ends the diagnosis with the name of its plugin.
+/// So does a plan with columns of unequal length, or with names that the test does not have.
 
 namespace tunica {
 
@@ -39,15 +40,16 @@ struct PlanningScope {
 struct PlannedTest {
   /// For users, behind "measure": "a sheet stretched equally in both directions".
   std::string description;
-  /// Options that differ from their defaults; of two of one name the last holds.
+  /// Options that differ from their defaults, as TestFactory::options declares them; of two of one name the last holds.
   std::vector<std::pair<std::string, Option::Value>> options;
-  /// Observable → n values, in base units; at least one, all of one length.
+  /// Observable → n values, in base units; at least one observable, all of one length n ≥ 1.
   std::vector<std::pair<std::string, std::vector<double>>> abscissae;
   /// n values, s, in loading order; empty where the rows have no clock.
   std::vector<double> time;
   /// Observables that would be measured.
   std::vector<std::string> channels;
-  /// Parameters of the test that differ from their null, in base units. They may lie outside their bounds.
+  /// Parameters of the test that differ from their null, in base units. They may lie outside their bounds. The test
+  /// must have each of them with these options.
   std::vector<std::pair<std::string, double>> parameters = {};
 };
 

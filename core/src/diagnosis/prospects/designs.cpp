@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "data/nearest.hpp"
 #include "plugins/default_options.hpp"
 #include "plugins/guarded.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -67,11 +69,48 @@ std::vector<PlanningScope::Made> made_of(const std::string& type, const Evidence
 
 using TestInCatalogue = plugins::Catalogue::Entry<TestFactory>;
 
+[[noreturn]] void refuse(const TestInCatalogue& type, const PlannedTest& plan, const std::string& problem) {
+  throw plugins::PluginFailure(
+      fmt::format("plugin '{}': its plan '{}' for tests '{}' {}; correct what its plan returns", type.plugin,
+                  plan.description, type.factory.type, problem));
+}
+
+/// `Declared` has a name: an option or a parameter.
+template <class Value, class Declared>
+void check_names(const char* kind, const std::vector<std::pair<std::string, Value>>& given,
+                 const std::vector<Declared>& declared, const TestInCatalogue& type, const PlannedTest& plan) {
+  std::vector<std::string> known;
+  for (const Declared& one : declared) known.push_back(one.name);
+  for (const auto& [name, value] : given)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      refuse(type, plan,
+             fmt::format("sets the {0} '{1}', and the test has no such {0}. {2}", kind, name,
+                         data::suggestion(name, known)));
+}
+
+/// The rows of a plan: all columns must have them.
+std::size_t row_count(const PlannedTest& plan, const TestInCatalogue& type) {
+  if (plan.abscissae.empty()) refuse(type, plan, "has no abscissa, expected at least one");
+  const std::size_t rows = plan.abscissae.front().second.size();
+  const auto check_length = [&](const std::string& column, std::size_t found) {
+    if (found == 0 || found != rows)
+      refuse(
+          type, plan,
+          fmt::format("has {} in '{}', expected {}", text::counted(found, "value", "values"), column,
+                      rows == 0 ? "one or more" : fmt::format("{}, as in '{}'", rows, plan.abscissae.front().first)));
+  };
+  for (const auto& [name, column] : plan.abscissae) check_length(name, column.size());
+  if (!plan.time.empty()) check_length("time", plan.time.size());
+  return rows;
+}
+
 /// The design of a plan without its noise; nothing where the type wants more than the plan says.
 std::optional<Design> design_of(const PlannedTest& plan, const TestInCatalogue& type) {
+  const std::size_t rows = row_count(plan, type);
+  check_names("option", plan.options, type.factory.options, type, plan);
   Options options = plugins::default_options(type.factory.options);
   for (const auto& [name, value] : plan.options) options.set(name, value);
-  TestSetup setup{options, {plan.abscissae.front().second.size(), {}, plan.channels, plan.time}, "cauchy"};
+  TestSetup setup{options, {rows, {}, plan.channels, plan.time}, "cauchy"};
   for (const auto& [name, column] : plan.abscissae) setup.rows.abscissae.push_back({name, column});
   Design design{plan.description, {}, {}, {}};
   try {
@@ -82,6 +121,7 @@ std::optional<Design> design_of(const PlannedTest& plan, const TestInCatalogue& 
     return std::nullopt;
   }
   const TestDescription& description = design.test->describe();
+  check_names("parameter", plan.parameters, description.parameters, type, plan);
   for (std::size_t k = 0; k < description.parameters.size(); ++k) {
     double value = std::isnan(description.nulls[k]) ? description.parameters[k].initial : description.nulls[k];
     for (const auto& [name, own] : plan.parameters)
@@ -132,7 +172,6 @@ std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, co
     if (!entry.factory.plan) continue;
     scope.made = made_of(type, evidence);
     for (const PlannedTest& plan : plugins::guarded(entry.plugin, "plan", [&] { return entry.factory.plan(scope); })) {
-      if (plan.abscissae.empty()) continue;
       std::optional<Design> design = design_of(plan, entry);
       std::vector<double> values;
       if (!design || !predict(*design, scale, free, values)) continue;
