@@ -51,6 +51,9 @@ TEST_F(Export, WritesACardWithProvenanceRangeStabilityAndUncertaintyButNoDate) {
               AllOf(HasSubstr("run 'wall/lm'"), HasSubstr("type neo_hooke"), HasSubstr("sha256:"),
                     HasSubstr("% interval"), HasSubstr("Fitted range of test 'circ': stretch 1.02 to 1.4"),
                     HasSubstr("Stability: "), HasSubstr("Units: mm, N, MPa, s.")));
+  EXPECT_THAT(unwrapped(ended.out), HasSubstr("Misfit: the model misses by 8.2 % of the range beyond noise; the "
+                                              "intervals hold only if the model is right."))
+      << "one law for two strips of different stiffness";
   const std::string date = bench.result("out")["provenance"]["date"];
   EXPECT_THAT(ended.out, Not(HasSubstr(date.substr(0, 10))));
   const auto at = ended.out.find("*HYPERELASTIC, NEO HOOKE\n");
@@ -59,6 +62,15 @@ TEST_F(Export, WritesACardWithProvenanceRangeStabilityAndUncertaintyButNoDate) {
   EXPECT_EQ(exported({"out/result.json", "--to", "calculix", "-o", "card.inp"}).out, "card.inp\n");
   EXPECT_EQ(bench.text("card.inp"), ended.out) << "the same every time, by folder or by file";
   EXPECT_THAT(refused({"out", "--to", "calculix", "-o", "card.inp"}), HasSubstr("is there already; name a new file"));
+}
+
+TEST_F(Export, IsSilentOfAMisfitThatNoiseExplains) {
+  bench.experiment["tests"].erase("axial");
+  bench.experiment["tests"]["circ"]["data"]["noise"] = {{"stress", {{"absolute", 0.2}}}};
+  fit({{"type", "neo_hooke"}});
+  const auto ended = exported({"out", "--to", "calculix"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_THAT(ended.out, Not(HasSubstr("Misfit:")));
 }
 
 TEST_F(Export, SaysWhatItCannotUse) {
@@ -99,7 +111,8 @@ TEST_F(Export, TakesADensityWithItsUnit) {
 TEST_F(Export, RefusesAModelThatAMechanismChanges) {
   fit({{"type", "neo_hooke"}, {"mechanisms", {{{"type", "chain_extensibility"}}}}});
   EXPECT_THAT(refused({"out", "--to", "abaqus"}),
-              HasSubstr("the mechanism 'chain_extensibility' changes the model 'neo_hooke', and no card has it"));
+              AllOf(HasSubstr("the mechanism 'chain_extensibility' changes the model 'neo_hooke', and no card has it"),
+                    HasSubstr("result.json has all parameters"), HasSubstr("docs/export.md")));
 }
 
 // Runs of different tests have objectives that cannot be compared, so that none of them is the best.

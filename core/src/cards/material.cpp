@@ -95,8 +95,9 @@ Material material_of(const plugins::Catalogue& catalogue, const Ingredient& mode
     const MechanismFactory& mechanism = entry.factory;
     if (!mechanism.card_volume || k > 0)
       throw InputError(
-          fmt::format("the mechanism '{}' changes the model '{}', and no card has it{}; take it out, or take a model "
-                      "that contains it. A template may write the parameters by name instead of a card",
+          fmt::format("the mechanism '{}' changes the model '{}', and no card has it{}. Fit a model that contains it, "
+                      "or write the lines by hand: result.json has all parameters, and docs/export.md tells how for "
+                      "laws that a program has itself",
                       mechanism.id, model.type, mechanism.card_volume ? " beside another one" : ""));
     const std::size_t own = mechanism.parameters_with(mechanisms[k].options).size();
     material.volume = plugins::guarded(entry.plugin, "card_volume", [&] {

@@ -22,8 +22,8 @@ struct FittedMaterial {
   cards::Material material;
   std::string name;  ///< of the model in the experiment
   std::string run;
-  /// For the card: provenance, parameters with their intervals, fitted range, stability, warnings. One paragraph each,
-  /// without a date.
+  /// For the card: provenance, a misfit that counts, parameters with their intervals, fitted range, stability,
+  /// warnings. One paragraph each, without a date.
   std::vector<std::string> remarks;
 };
 

@@ -10,6 +10,7 @@
 
 #include "report/folder.hpp"
 #include "report/pieces.hpp"
+#include "text/misfit_words.hpp"
 #include "text/units.hpp"
 
 namespace tunica::exporting {
@@ -39,6 +40,18 @@ std::string parameter_words(const std::string& name, const Json& entry) {
   if (const std::string bound = word(entry, "at_bound"); !bound.empty())
     words += fmt::format(", at its {} bound", bound);
   return words;
+}
+
+/// A misfit counts above the tolerance of the run, or where noise does not explain it.
+void add_misfit(const Json& best, std::vector<std::string>& paragraphs) {
+  constexpr double usual_tolerance = 0.02;  // of the range
+  const Json& size = member(best, "misfit_size");
+  const double rms = report::number(size, "rms"), stated = report::number(size, "tolerance");
+  const bool contradicted = member(member(best, "misfit"), "contradicts_noise") == true ||
+                            member(member(best, "misfit_estimated"), "contradicts_noise") == true;
+  if (!std::isfinite(rms) || !(contradicted || rms > (std::isfinite(stated) ? stated : usual_tolerance))) return;
+  add(paragraphs, fmt::format("Misfit: the model {} beyond noise; the intervals hold only if the model is right.",
+                              text::misses_by(rms)));
 }
 
 /// "stretch 1.02 to 7.6": the measured and prescribed columns of a test's fit over the rows that the run was fitted to.
@@ -97,6 +110,7 @@ std::vector<std::string> remarks(const Origin& origin) {
                   "folder {}.",
                   word(provenance, "tunica"), word(origin.result, "name"), word(origin.run, "run"), origin.model,
                   origin.type, origin.folder.string()));
+  add_misfit(member(origin.run, "best"), paragraphs);
   add(paragraphs, "Experiment sha256:" + word(provenance, "input_sha256"));
   for (const std::string& data : report::words(list(provenance, "data"))) add(paragraphs, "Data: " + data);
   add(paragraphs, "Parameters as fitted, in the units and conventions of tunica:");

@@ -23,7 +23,7 @@ struct Origin {
   const Parameters& parameters;
 };
 
-/// Provenance, parameters with intervals, fitted range, stability, warnings: one paragraph each.
+/// Provenance, a misfit that counts, parameters with intervals, fitted range, stability, warnings: one paragraph each.
 std::vector<std::string> remarks(const Origin& origin);
 
 }  // namespace tunica::exporting
