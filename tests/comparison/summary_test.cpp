@@ -7,6 +7,7 @@
 #include "execution/laboratory.hpp"
 
 using namespace tunica;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
@@ -125,6 +126,42 @@ TEST(Summary, ReportsSearchesThatADefaultBoundEndedAlthoughAnotherOneWon) {
       sentences(made.summarise()),
       Contains(HasSubstr("m/walk: 3 of 8 searches stopped at the default upper bound of a (10 kPa), the best of "
                          "them at the objective 9.25; the run ends at")));
+}
+
+TEST(Summary, TellsOfAllDefaultBoundsThatEndedSearchesInOneWarning) {
+  Summarised made;
+  auto& tally = made.results[0].realisations[0].tally;
+  tally.starts = 7;
+  tally.bound_stops = {{0, true, 3, 9.25}, {1, true, 2, 7.5}};
+  const auto summary = made.summarise();
+  std::vector<execution::Warning> found;
+  for (const auto& one : summary.warnings)
+    if (one.kind == execution::WarningKind::stopped_at_default_bound) found.push_back(one);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].sentence, HasSubstr("3 of 8 searches stopped at the default upper bound of a (10 kPa)"));
+  EXPECT_THAT(found[0].sentence,
+              AllOf(HasSubstr("; 2 at the upper one of b ("), HasSubstr("), the best at 7.5; the run ends at")));
+  EXPECT_THAT(found[0].sentence, HasSubstr("widen it with \"max\" of 'a' and \"max\" of 'b'"));
+  EXPECT_EQ(found[0].subjects, (std::vector<std::string>{"a", "b"}));
+}
+
+// The objective has a unit here, and is far below 1: 40 times the best is worth a look, 4000 times is not.
+TEST(Summary, JudgesSearchesAtDefaultBoundsByTheObjectiveOfTheWinner) {
+  Summarised made;
+  made.laboratory.bench.experiment.runs[0].objective = experiment::ObjectiveType::standardised_quadratic;
+  made.plan.emplace(made.laboratory.plan());
+  const auto warned = [&](double times) {
+    auto found = made.realisation(1, {2.1, 1, 3});
+    EXPECT_LT(found.best.objective, 0.01);
+    found.tally.starts = 7;
+    found.tally.bound_stops = {{0, true, 3, times * found.best.objective}};
+    made.results[0].realisations = {found};
+    const auto summary = made.summarise();
+    return std::any_of(summary.warnings.begin(), summary.warnings.end(),
+                       [](const auto& one) { return one.kind == execution::WarningKind::stopped_at_default_bound; });
+  };
+  EXPECT_TRUE(warned(40));
+  EXPECT_FALSE(warned(4000));
 }
 
 TEST(Summary, SaysFirstThatTheModelMissesTheDataByFarMoreThanTheStatedNoise) {

@@ -141,9 +141,9 @@ void add_posterior(const assembly::Assembly& assembly, const Posterior& made, Ru
         "too narrow. Take another model");
   if (made.factor_assumed)
     warnings.push_back({WarningKind::posterior_noise_assumed,
-                        "the posterior takes the noise for known though no test states it all: the shapes of a misfit "
-                        "and the parameters follow every fitted row, and leave nothing to estimate it from. State "
-                        "\"noise\", fit more rows, or leave out --discrepancy",
+                        "the posterior takes the noise for known though not all of it is stated: the shapes of a "
+                        "misfit and the parameters follow every fitted row, and leave nothing to estimate it from. "
+                        "State \"noise\", fit more rows, or leave out --discrepancy, or \"discrepancy\" in the file",
                         summary.label,
                         {}});
   if (!made.factor_known)

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "comparison/bound_warnings.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/run_differences.hpp"
 #include "text/lists.hpp"
@@ -155,68 +156,6 @@ void warn_of_broken_constraints(const RunSummary& run, Warnings& warnings) {
                    "shown; it is not a fit. Its worst constraint is {}. Widen the bounds, or relax the constraints",
                    run.evaluations, run.status.violation(), run.status.reason()),
        run.label});
-}
-
-using BoundKind = assembly::FreeParameter::Bound;
-
-/// What to do about a parameter at its bound.
-std::string remedy_at(BoundKind kind, const std::string& name, bool upper) {
-  switch (kind) {
-    case BoundKind::symmetry:
-      return "It is a point of symmetry, beyond which the same material comes again: there is nothing to widen";
-    case BoundKind::physical:
-      return "It is a physical end: the data want nothing of what it stands for, or the model lacks something. There "
-             "is "
-             "nothing to widen";
-    case BoundKind::by_default:
-      return fmt::format(
-          "The bound is the default, nobody chose it. The best value may lie beyond it: widen it with "
-          "\"{}\" of '{}' if physics allows it, otherwise doubt the model",
-          upper ? "max" : "min", name);
-    case BoundKind::chosen:
-      break;
-  }
-  return "The best value may lie beyond it. Widen the bound if physics allows it, otherwise doubt the model";
-}
-
-void warn_of_bounds(const RunSummary& run, Warnings& warnings) {
-  for (const auto& parameter : run.parameters) {
-    if (parameter.at_bound == Estimate::Bound::none) continue;
-    const bool upper = parameter.at_bound == Estimate::Bound::upper;
-    const std::string unit = text::unit_suffix(parameter.unit);
-    warnings.push_back(
-        {WarningKind::at_bound,
-         fmt::format("{} = {:.6g}{} lies at its {} bound ({:.6g}{}). {}", parameter.name, parameter.value, unit,
-                     upper ? "upper" : "lower", upper ? parameter.max : parameter.min, unit,
-                     remedy_at(upper ? parameter.upper_kind : parameter.lower_kind, parameter.name, upper)),
-         run.label,
-         {parameter.name}});
-  }
-}
-
-/// Searches that a default bound has ended say that a better point may lie beyond it, although another one won.
-void warn_of_default_bounds(const RunSummary& run, Warnings& warnings) {
-  for (const auto& parameter : run.parameters)
-    for (const bool upper : {false, true}) {
-      const Estimate::Stops& stops = upper ? parameter.stops_upper : parameter.stops_lower;
-      const bool winner = parameter.at_bound == (upper ? Estimate::Bound::upper : Estimate::Bound::lower);
-      // Times the objective of the winner. Where that describes the data to within their noise, nothing is better, and
-      // only a place as good would be worth a look.
-      const bool to_noise = run.misfit && run.misfit->judged() && !run.misfit->contradicts();
-      const double hopeless = to_noise ? 1.1 : 100;
-      if (stops.count == 0 || winner || stops.objective > hopeless * std::max(std::abs(run.objective), 1.0)) continue;
-      if ((upper ? parameter.upper_kind : parameter.lower_kind) != BoundKind::by_default) continue;
-      warnings.push_back(
-          {WarningKind::stopped_at_default_bound,
-           fmt::format("{} of {} searches stopped at the default {} bound of {} ({:.6g}{}), the best of them at the "
-                       "objective {:.5g}; the run ends at {:.5g} elsewhere. A better point may lie beyond a bound that "
-                       "nobody chose: widen it with \"{}\" of '{}'",
-                       stops.count, run.searches, upper ? "upper" : "lower", parameter.name,
-                       upper ? parameter.max : parameter.min, text::unit_suffix(parameter.unit), stops.objective,
-                       run.objective, upper ? "max" : "min", parameter.name),
-           run.label,
-           {parameter.name}});
-    }
 }
 
 void warn_of_loose_parameters(const RunSummary& run, Warnings& warnings) {
