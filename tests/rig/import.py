@@ -44,7 +44,8 @@ block = experiment["tests"]["strip"]["data"]
 assert block["columns"] == {"time": "Zeit", "displacement": "Weg", "force": "Kraft"}, block
 assert block["specimen"] == {"width": "5 mm", "thickness": "1500 um", "gauge_length": "20 mm"}, block
 assert (block["cycle"], block["branch"], block["stress_measure"]) == ("last", "loading", "first_piola_kirchhoff"), block
-assert "mm is assumed" in said and "last loading is taken" in said, said
+assert "mm is assumed" in said and "several cycles (3): the last loading is taken" in said, said
+assert "Softening and hysteresis need --cycle all" in said, said
 printed, _ = rig.tunica(program, "check", folder / "strip.json", "--page", folder / "data.html")
 assert "5 rows" in printed, printed
 assert "stretch = 1 + displacement / 20 mm, from 'Weg' in mm" in words(printed), printed

@@ -271,41 +271,52 @@ class File {
       const Json number = Json::parse(cycle, nullptr, false);
       data["cycle"] = number.is_discarded() ? Json(cycle) : number;
       if (answers_.branch.empty() && cycle != "all") data["branch"] = "loading";
-      if (answers_.cycle.empty() && answers_.branch.empty() && cycle_column_.empty() && loads_once(where))
-        note("the loading is taken, and the unloading left out: --branch unloading takes that, --cycle all both");
-      else if (answers_.cycle.empty() && answers_.branch.empty())
-        note(
-            "several cycles: the last loading is taken. Choose with --cycle and --branch, or take all as history with "
-            "--cycle all");
+      if (answers_.cycle.empty() && answers_.branch.empty()) note_loading(turning_cycles(where));
     }
     if (!answers_.branch.empty() && answers_.branch != "none") data["branch"] = answers_.branch;
     if (!answers_.preload.empty() && answers_.preload != "none") data["preload"] = answers_.preload;
   }
 
-  /// One cycle, by the turning points of what is prescribed.
-  bool loads_once(const Json& where) const {
-    std::size_t most = 0;
-    for (const auto& [name, column] : mapped_) {
-      const auto quantity = data::quantity_named(name, factory_->observables);
-      if (quantity->observable->role != Observable::Role::abscissa) continue;
-      const bool stretch = quantity->kind == From::own && quantity->observable->kind == Observable::Kind::stretch;
-      most = std::max(most, importing::cycles(csv_, column, rows(where), stretch ? 1 : 0));
-    }
-    return most < 2;
+  /// What is lost where nobody chose a cycle.
+  void note_loading(std::size_t cycles) {
+    if (cycles < 2 && cycle_column_.empty())
+      return note("the loading is taken, and the unloading left out: --branch unloading takes that, --cycle all both");
+    note(
+        "several cycles{}: the last loading is taken. Softening and hysteresis need --cycle all; --cycle and --branch "
+        "choose another part",
+        cycles < 2 ? "" : fmt::format(" ({})", cycles));
   }
 
-  /// Whether every prescribed quantity that changes comes back.
-  bool goes_to_and_fro(const Json& where) const {
-    bool any = false;
+  /// Calls `visit` with the column of each prescribed quantity and its value at rest.
+  template <class Visit>
+  void each_abscissa(const Visit& visit) const {
     for (const auto& [name, column] : mapped_) {
       const auto quantity = data::quantity_named(name, factory_->observables);
       if (quantity->observable->role != Observable::Role::abscissa) continue;
       const bool stretch = quantity->kind == From::own && quantity->observable->kind == Observable::Kind::stretch;
-      const auto returns = importing::goes_to_and_fro(csv_, column, rows(where), stretch ? 1 : 0);
-      if (returns && !*returns) return false;  // the others are held, and show noise
-      any = any || returns;
+      visit(column, stretch ? 1.0 : 0.0);
     }
-    return any;
+  }
+
+  /// Cycles by the turning points of what is prescribed and not held.
+  std::size_t turning_cycles(const Json& where) const {
+    std::size_t most = 0;
+    each_abscissa([&](const std::string& column, double rest) {
+      if (importing::goes_to_and_fro(csv_, column, rows(where), rest))
+        most = std::max(most, importing::cycles(csv_, column, rows(where), rest));
+    });
+    return most;
+  }
+
+  /// Whether every prescribed quantity that changes comes back; the others are held, and show noise.
+  bool goes_to_and_fro(const Json& where) const {
+    bool any = false, all = true;
+    each_abscissa([&](const std::string& column, double rest) {
+      const auto returns = importing::goes_to_and_fro(csv_, column, rows(where), rest);
+      any = any || returns;
+      all = all && returns.value_or(true);
+    });
+    return any && all;
   }
 
   void add_measure(Json& data) {

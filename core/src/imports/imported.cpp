@@ -87,10 +87,11 @@ void check_area(const std::string& area) {
 std::filesystem::path output_of(const ImportRequest& request) {
   std::filesystem::path file = request.output;
   if (file.empty() && request.files.size() > 1)
-    throw InputError("several files make one experiment. Name it with -o FILE");
+    throw InputError("several files make one experiment. Name it with -o FILE, in Python with output=");
   if (file.empty()) file = std::filesystem::path(request.files.front()).stem().string() + ".json";
   if (std::filesystem::exists(file))
-    throw InputError(fmt::format("{}: there is such a file already. Name another one with -o FILE", file.string()));
+    throw InputError(fmt::format(
+        "{}: there is such a file already. Name another one with -o FILE, in Python with output=", file.string()));
   return file;
 }
 
@@ -151,7 +152,8 @@ std::filesystem::path joined_of(const ImportRequest& request, const std::filesys
   joined.replace_extension(".csv");
   if (std::filesystem::exists(joined))
     throw InputError(
-        fmt::format("--join: there is a file {} already. Name another experiment with -o FILE", joined.string()));
+        fmt::format("--join: there is a file {} already. Name another experiment with -o FILE, in Python with output=",
+                    joined.string()));
   return joined;
 }
 
