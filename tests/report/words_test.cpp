@@ -163,6 +163,19 @@ TEST(Words, OfADiagnosisBeginWithWhatWasFitted) {
               HasSubstr("hgo to strip, 100 values, seed 3: mu = 10 kPa. Root mean square of residual over noise: 2."));
 }
 
+// The reader stands where the folder was named, and not in it.
+TEST(Words, OfCommandsNameFilesByTheWayToThem) {
+  const trial::Scratch scratch;
+  const std::string there = scratch.path().string();
+  const std::string diagnosis = page_of(scratch, R"({"diagnosis": {"verdict": "named",
+    "extension": {"experiment": "extended.json", "mechanisms": [{"type": "crimp"}]}}})");
+  EXPECT_THAT(diagnosis, HasSubstr("tunica run " + there + "/extended.json fits the model with the cause added."));
+  const std::string discovered = page_of(scratch, R"({"diagnosis": {"verdict": "discovered"}})");
+  EXPECT_THAT(discovered, HasSubstr("tunica run " + there + "/extended.json fits the model with the terms added."));
+  const std::string run = page_with(scratch, R"("misfit": null)");
+  EXPECT_THAT(run, HasSubstr("tunica simulate EXPERIMENT --model m --parameters " + there + "/result.json -o FOLDER"));
+}
+
 TEST(Words, OfASimulationSayWhatWasSimulated) {
   const trial::Scratch scratch;
   scratch.write("tube.csv", "pressure [kPa],diameter [1]\n0,1\n1,2\n");

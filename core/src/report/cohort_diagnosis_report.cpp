@@ -146,7 +146,7 @@ void add_cohort_diagnosis(Page& page, const Folder& folder) {
   add_gain(page, folder, diagnosis);
   if (const Json& extended = member(diagnosis, "extended"); extended.is_object()) {
     page.paragraph("The cohort with the cause in its experiment:");
-    page.command("tunica cohort " + word(extended, "cohort"));
+    page.command("tunica cohort " + folder.in_command(word(extended, "cohort")));
   }
 }
 

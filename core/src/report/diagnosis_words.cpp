@@ -121,7 +121,8 @@ std::string gain_words(const Json& diagnosis) {
   return text + '.';
 }
 
-std::vector<std::string> next_words(const Json& diagnosis, const Json& discovery) {
+std::vector<std::string> next_words(const Folder& folder, const Json& diagnosis) {
+  const Json& discovery = member(folder.result(), "discovery");
   const std::string verdict = word(diagnosis, "verdict");
   const Json& next = member(verdict == "discovered" ? discovery : diagnosis, "next_experiment");
   std::vector<std::string> lines;
@@ -131,9 +132,10 @@ std::vector<std::string> next_words(const Json& diagnosis, const Json& discovery
     lines.push_back(text::capitalised(std::move(text), words(list(next, "separates"))));
   }
   if (verdict == "discovered")
-    lines.emplace_back("tunica run extended.json fits the model with the terms added.");
+    lines.push_back(
+        fmt::format("tunica run {} fits the model with the terms added.", folder.in_command("extended.json")));
   else if (const std::string file = word(member(diagnosis, "extension"), "experiment"); !file.empty())
-    lines.push_back(fmt::format("tunica run {} fits the model with the cause added.", file));
+    lines.push_back(fmt::format("tunica run {} fits the model with the cause added.", folder.in_command(file)));
   if (lines.empty() && verdict == "nothing_detected")
     lines.emplace_back("The fitted parameters can be used. Reach lists what could still hide below the noise.");
   return lines;
@@ -182,7 +184,7 @@ void add_verdict(Page& page, const Folder& folder) {
                    {"Where", where},
                    {causes.size() > 1 ? "Causes" : "Cause", causes},
                    {"Gain", one(gain_words(diagnosis))},
-                   {"What to do next", next_words(diagnosis, member(folder.result(), "discovery"))}});
+                   {"What to do next", next_words(folder, diagnosis)}});
   std::set<std::string> explained;  // of several of a kind, the first stands for all
   for (const Json& cause : list(diagnosis, "causes"))
     if (const std::string text = word(cause, "explanation");

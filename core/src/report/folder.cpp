@@ -8,6 +8,7 @@
 #include "execution/files.hpp"
 #include "report/pieces.hpp"
 #include "text/escaped.hpp"
+#include "text/shell.hpp"
 #include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
@@ -60,6 +61,10 @@ std::string Folder::name() const {
   if (!given.empty()) return given;
   const auto last = path_.filename().empty() ? path_.parent_path().filename() : path_.filename();
   return last.string();
+}
+
+std::string Folder::in_command(const std::string& file) const {
+  return text::quoted((path_ / file).lexically_normal().string());
 }
 
 std::optional<Table> Folder::table(const std::string& file) const {

@@ -24,6 +24,8 @@ class Folder {
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] const std::string& address() const { return address_; }
   [[nodiscard]] std::string name() const;
+  /// A file of the folder as a command has it, where the reader stands as whoever named the folder.
+  [[nodiscard]] std::string in_command(const std::string& file) const;
   [[nodiscard]] const Json& result() const { return result_; }
   /// None if there is no such table; problems() lists unreadable ones.
   [[nodiscard]] std::optional<Table> table(const std::string& file) const;

@@ -267,8 +267,8 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
           {doubts.wrong.empty() ? "Nothing was found."
                                 : text::capitalised(fmt::format("{}.", fmt::join(doubts.wrong, "; ")), names)}},
          {"What to do next",
-          {doubts.next.empty() ? fmt::format("Use it: tunica simulate EXPERIMENT{} --parameters result.json -o FOLDER",
-                                             layered ? "" : " --model " + model)
+          {doubts.next.empty() ? fmt::format("Use it: tunica simulate EXPERIMENT{} --parameters {} -o FOLDER",
+                                             layered ? "" : " --model " + model, folder.in_command("result.json"))
                                : fmt::format("{}", fmt::join(doubts.next, " "))}}});
   }
   if (std::none_of(order.runs().begin(), order.runs().end(), [](const auto& run) { return run.rank > 0; }))
