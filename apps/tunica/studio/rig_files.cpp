@@ -154,6 +154,7 @@ void draw(const fs::path& file, const plugins::Catalogue& catalogue, json& answe
   const auto experiment = experiment::read_experiment(file, catalogue);
   for (const auto& test : experiment.tests) {
     const auto& observables = catalogue.tests().find(test.type)->second.factory.observables;
+    if (test.data.cycle && test.data.cycle->last) answer["last_cycle_only"] = true;
     for (const auto& signal : data::read_signals(test.data, observables))
       answer["signals"].push_back(signal_json(test.name, signal));
     const auto dataset = data::read_dataset(test.data, observables);

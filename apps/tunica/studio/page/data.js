@@ -83,7 +83,7 @@ export async function dataPage(place, all, name) {
       title: column.title, x: signal.clock.title, y: column.title, height: 240,
       series: [{ name: column.title, x: signal.clock.values, y: column.values, colour: 1 }] }).node)));
     put(pictures, curves, raw);
-    put(understood, cycles(look.understood ?? []),
+    put(understood, look.last_cycle_only ? cycles() : "",
       look.understood?.length ? el("ul", {}, look.understood.map((line) => el("li", {}, line))) : "",
       look.warnings?.length ? el("div", { class: "box bad" }, el("ul", {}, look.warnings.map((line) => el("li", {}, line)))) : "",
       look.notes?.length ? el("details", {}, el("summary", {}, "Notes on the files"), el("ul", {}, look.notes.map((line) => el("li", {}, line)))) : "");
@@ -94,9 +94,9 @@ export async function dataPage(place, all, name) {
   }
 
   /** Rows that were left out because they are other cycles: what they could show, and a way to take them. */
-  function cycles(lines) {
+  function cycles() {
     const control = texts.get("cycle");
-    if (control.value.trim() || !lines.some((line) => line.includes("the last cycle, loading only"))) return "";
+    if (control.value.trim()) return "";
     return el("div", { class: "box" }, el("p", {}, "The file has several cycles, and the last loading is taken. Softening, viscosity and a set that stays show in the whole history only: without it, the diagnosis may take them for faults of the rig."),
       el("button", { type: "button", onclick: () => { control.value = "all"; look(); } }, "Take all cycles"));
   }
