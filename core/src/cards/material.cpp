@@ -100,9 +100,8 @@ Material material_of(const plugins::Catalogue& catalogue, const Ingredient& mode
                       "laws that a program has itself",
                       mechanism.id, model.type, mechanism.card_volume ? " beside another one" : ""));
     const std::size_t own = mechanism.parameters_with(mechanisms[k].options).size();
-    material.volume = plugins::guarded(entry.plugin, "card_volume", [&] {
-      return mechanism.card_volume(mechanisms[k].options, values.last(own));
-    });
+    material.volume = plugins::guarded(entry.plugin, "card_volume",
+                                       [&] { return mechanism.card_volume(mechanisms[k].options, values.last(own)); });
     values = values.first(values.size() - own);
   }
   material.energy =
