@@ -28,8 +28,10 @@ struct PlanningScope {
   };
   /// The largest stretch of the specimens so far, held between 1.15 and 8.
   double reach = 1;
-  /// Duration of the shortest and of the longest test that has a clock, s. Both are 0 where none has one.
-  double shortest_time = 0, longest_time = 0;
+  /// Duration of the shortest test that has a clock, s; 0 where none has one.
+  double shortest_time = 0;
+  /// Duration of the longest of them, s; 0 where there is none.
+  double longest_time = 0;
   /// In the order of the file; empty where no test of the type was made.
   std::vector<Made> made;
 };
