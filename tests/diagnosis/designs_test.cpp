@@ -11,6 +11,7 @@
 namespace tunica::diagnosis::designs_test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Pointwise;
 
@@ -73,9 +74,10 @@ std::vector<double> timed(double duration) { return testing::evenly(0, duration,
 TEST(Library, HoldsStripsAndSheetsThatGoAsFarAsTheData) {
   const Library library = of(trial::Measured{});
   EXPECT_THAT(library.descriptions(),
-              ElementsAre(circumferential, axial, askew, "a sheet stretched equally in both directions",
+              ElementsAre("a sheet stretched equally in both directions",
                           "a sheet stretched twice as far along the circumference as along the axis",
-                          "a sheet stretched twice as far along the axis as along the circumference"));
+                          "a sheet stretched twice as far along the axis as along the circumference", circumferential,
+                          axial, askew));
   for (const std::string& name : {circumferential, axial}) {
     const TestRows& rows = library[name].test->rows();
     ASSERT_EQ(rows.abscissae.size(), 1u);
@@ -89,7 +91,7 @@ TEST(Library, HoldsStripsAndSheetsThatGoAsFarAsTheData) {
   const std::vector<std::pair<double, double>> ends{
       {edge, edge}, {edge, 1 + (edge - 1) / 2}, {1 + (edge - 1) / 2, edge}};
   for (std::size_t k = 0; k < 3; ++k) {
-    const TestRows& rows = library[library.descriptions()[3 + k]].test->rows();
+    const TestRows& rows = library[library.descriptions()[k]].test->rows();
     ASSERT_EQ(rows.abscissae.size(), 2u);
     EXPECT_EQ(rows.abscissae[0].observable, "stretch_circumferential");
     EXPECT_EQ(rows.abscissae[1].observable, "stretch_axial");
@@ -156,8 +158,9 @@ TEST(Library, TakesRelativeNoiseOfATenthOfTheLargestAtLeast) {
 /// However far the data go, a design stretches by 15 % at least.
 TEST(Library, StretchesALittleAtLeast) {
   const Library library = of(trial::Measured({{.stretch = testing::evenly(1.01, 1.1, 20)}}));
-  EXPECT_EQ(library.descriptions().front(),
-            "a strip pulled along the circumferential direction to a stretch of 1.15, its width measured too");
+  EXPECT_THAT(
+      library.descriptions(),
+      Contains("a strip pulled along the circumferential direction to a stretch of 1.15, its width measured too"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/prospects/next_experiment.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -150,13 +151,20 @@ TEST(NextExperiment, IsNotAskedForWhereNothingIsOpen) {
   EXPECT_FALSE(found.prospects.next) << found.prospects.next->description;
 }
 
+/// The strip along the circumference whose width is measured too.
+const Design& strip_of(const std::vector<Design>& library) {
+  return *std::find_if(library.begin(), library.end(), [](const Design& one) {
+    return one.description.starts_with("a strip pulled along the circumferential direction");
+  });
+}
+
 TEST(Designs, ReachAsFarAsTheDataAndKnowTheirNoise) {
   const Rivals rivals(second_invariant);
   const auto library = designs(rivals.asked.inquiry(), rivals.analysis.evidence, rivals.first().extension->assembly(),
                                rivals.first().fit.free);
   ASSERT_GE(library.size(), 6u);
-  EXPECT_THAT(library.front().description, HasSubstr("to a stretch of 1.6"));
-  EXPECT_DOUBLE_EQ(library.front().sd.front(), 0.3);
+  EXPECT_THAT(strip_of(library).description, HasSubstr("to a stretch of 1.6"));
+  EXPECT_DOUBLE_EQ(strip_of(library).sd.front(), 0.3);
   // P with 0.3 kPa and 2 % is known as a Cauchy stress λ P to λ times as much.
   Evidence nominal = rivals.analysis.evidence;
   for (auto& test : nominal.experiment.tests) test.data.stress_measure = "first_piola_kirchhoff";
@@ -164,13 +172,13 @@ TEST(Designs, ReachAsFarAsTheDataAndKnowTheirNoise) {
   const auto wider =
       designs(rivals.asked.inquiry(), nominal, rivals.first().extension->assembly(), rivals.first().fit.free);
   std::vector<double> values;
-  ASSERT_TRUE(predict(wider.front(), rivals.first().extension->assembly(), rivals.first().fit.free, values));
-  EXPECT_DOUBLE_EQ(wider.front().sd[19], 1.6 * std::hypot(0.3, 0.02 * values[19] / 1.6));
+  ASSERT_TRUE(predict(strip_of(wider), rivals.first().extension->assembly(), rivals.first().fit.free, values));
+  EXPECT_DOUBLE_EQ(strip_of(wider).sd[19], 1.6 * std::hypot(0.3, 0.02 * values[19] / 1.6));
   // The second Piola–Kirchhoff stress is S = σ/λ².
   for (auto& test : nominal.experiment.tests) test.data.stress_measure = "second_piola_kirchhoff";
   const auto widest =
       designs(rivals.asked.inquiry(), nominal, rivals.first().extension->assembly(), rivals.first().fit.free);
-  EXPECT_DOUBLE_EQ(widest.front().sd[19], 1.6 * 1.6 * std::hypot(0.3, 0.02 * values[19] / (1.6 * 1.6)));
+  EXPECT_DOUBLE_EQ(strip_of(widest).sd[19], 1.6 * 1.6 * std::hypot(0.3, 0.02 * values[19] / (1.6 * 1.6)));
   for (const Design& design : library) {
     EXPECT_EQ(design.sd.size(), design.test->rows().count * design.test->rows().channels.size());
     for (const double sd : design.sd) EXPECT_GT(sd, 0) << design.description;
