@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "experiment/blocks.hpp"
+#include "plugins/default_options.hpp"
 
 namespace tunica::experiment {
 namespace {
@@ -53,14 +54,11 @@ Json write_option(const Option& option, const Options& options) {
 }
 
 Options default_options(const Node& entry, const std::vector<Option>& declared, std::string_view owner) {
-  Options options;
-  for (const Option& option : declared) {
-    if (option.fallback) options.set(option.name, *option.fallback);
+  for (const Option& option : declared)
     if (!option.fallback && !entry.find(option.name))
       entry.fail(fmt::format("the option '{}' is missing in {}", option.name, owner),
                  fmt::format("Add it. {}", option.doc));
-  }
-  return options;
+  return plugins::default_options(declared);
 }
 
 }  // namespace tunica::experiment
