@@ -14,10 +14,10 @@ import unittest
 sys.dont_write_bytecode = True
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE / "docs"))
-from results_reference import ANSWERS, COHORT, DOCUMENTS, PAGE, PREFIX, RESULT, TYPES, Schemas, Writer, unit_of
+from results_reference import ANSWERS, COHORT, KEYS, PAGE, PREFIX, RESULT, TYPES, Schemas, Writer, unit_of
 
 WRITERS = {
-    RESULT: ["core/src/comparison/result_json.cpp", "core/src/comparison/stability_report.cpp",
+    RESULT: ["core/src/comparison/result_json.cpp", "core/src/comparison/provenance.cpp", "core/src/comparison/stability_report.cpp",
              "core/src/diagnosis/output/diagnosis_json.cpp", "core/src/budget/output/budget_json.cpp",
              "core/src/discovery/output/discovery_json.cpp", "core/src/discovery/output/parts.cpp",
              "core/src/cohort/discovery_json.cpp", "core/src/budget/diagnosed.cpp"],
@@ -26,7 +26,8 @@ WRITERS = {
     ANSWERS: ["core/src/calibration/examination_json.cpp", "core/src/plugins/description.cpp", "apps/tunica/describe.cpp",
               "apps/tunica/list.cpp", "core/src/comparison/stability_answer.cpp", "apps/tunica/plugin_check.cpp",
               "core/src/comparison/certify.cpp", "core/src/cluster/overview.cpp",
-              "core/src/comparison/simulation_record.cpp", "core/src/comparison/stability_report.cpp"],
+              "core/src/comparison/simulation_record.cpp", "core/src/comparison/stability_report.cpp",
+              "core/src/comparison/taken_rows.cpp"],
 }
 # Codes that no document has: words of the statistics, of cohort files, of material cards.
 NOT_IN_RESULTS = {"adjustment_codes", "likelihood_codes", "shape_codes", "shape_reason_codes", "spread_codes",
@@ -82,7 +83,7 @@ class Generated(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.root = pathlib.Path(scratch.name)
         shutil.copytree(SOURCE / "schemas", self.root / "schemas")
-        for file in (PAGE, TYPES):
+        for file in (PAGE, TYPES, KEYS):
             (self.root / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(SOURCE / file, self.root / file)
 
@@ -107,6 +108,7 @@ class Generated(unittest.TestCase):
         self.assertIn("| `largest_error` *optional* | number | unit | The largest of all rows |", text_of(PAGE, self.root))
         self.assertIn("| `guessed` | By eye |", text_of(PAGE, self.root))
         self.assertIn("    largest_error: NotRequired[float]", text_of(TYPES, self.root))
+        self.assertIn('inline constexpr Key largest_error{"largest_error"};', text_of(KEYS, self.root))
         self.assertRegex(text_of(TYPES, self.root), r'NoiseOrigin = Literal\[[^]]*"guessed"\]')
 
 
@@ -115,7 +117,7 @@ class Declared(unittest.TestCase):
 
     def setUp(self):
         self.writer = Writer(self.schemas)
-        for _, file, name in DOCUMENTS:
+        for _, file, name in self.schemas.documents():
             self.writer.meet(file, name, self.schemas.at(file, name))
 
     def test_every_document_is_closed(self):

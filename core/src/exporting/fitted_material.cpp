@@ -14,7 +14,8 @@
 #include "experiment/reader.hpp"
 #include "exporting/remarks.hpp"
 #include "plugins/guarded.hpp"
-#include "report/pieces.hpp"
+#include "results/keys.hpp"
+#include "results/reading.hpp"
 #include "text/escaped.hpp"
 #include "text/lists.hpp"
 #include "tunica/detail/bounded_json.hpp"
@@ -24,10 +25,11 @@ namespace tunica::exporting {
 
 namespace {
 
-using report::Json;
-using report::list;
-using report::member;
-using report::word;
+namespace key = results::key;
+using results::Json;
+using results::list;
+using results::member;
+using results::word;
 
 Json document(const std::filesystem::path& file) {
   try {
@@ -41,12 +43,12 @@ Json document(const std::filesystem::path& file) {
 /// Groups of runs have objectives that are not comparable, so no run is the best overall.
 void refuse_incomparable(const Json& result, const std::string& file) {
   std::vector<std::string> groups, first;
-  for (const Json& entry : list(result, "ranking")) {
-    if (!member(entry, "rank").is_number() ||
-        std::find(groups.begin(), groups.end(), word(entry, "group")) != groups.end())
+  for (const Json& entry : list(result, key::ranking)) {
+    if (!member(entry, key::rank).is_number() ||
+        std::find(groups.begin(), groups.end(), word(entry, key::group)) != groups.end())
       continue;
-    groups.push_back(word(entry, "group"));
-    first.push_back(word(entry, "run"));
+    groups.push_back(word(entry, key::group));
+    first.push_back(word(entry, key::run));
   }
   if (groups.size() > 1)
     throw InputError(fmt::format(
@@ -58,11 +60,11 @@ void refuse_incomparable(const Json& result, const std::string& file) {
 const Json& chosen_run(const Json& result, const std::string& wanted, const std::string& file) {
   if (wanted.empty()) refuse_incomparable(result, file);
   std::vector<std::string> known;
-  for (const Json& entry : list(result, "ranking"))
-    for (const Json& run : list(result, "runs")) {
-      if (word(run, "run") != word(entry, "run") || !member(run, "best").is_object()) continue;
-      if (wanted.empty() || word(run, "run") == wanted) return run;
-      known.insert(known.end(), word(run, "run"));
+  for (const Json& entry : list(result, key::ranking))
+    for (const Json& run : list(result, key::runs)) {
+      if (word(run, key::run) != word(entry, key::run) || !member(run, key::best).is_object()) continue;
+      if (wanted.empty() || word(run, key::run) == wanted) return run;
+      known.insert(known.end(), word(run, key::run));
     }
   if (known.empty())
     throw InputError(
@@ -73,7 +75,7 @@ const Json& chosen_run(const Json& result, const std::string& wanted, const std:
 
 /// The models of a run: a run of layers joins their names with '+'.
 std::vector<std::string> models_of(const Json& run, const Json& models) {
-  const std::string joined = word(run, "model");
+  const std::string joined = word(run, key::model);
   if (models.contains(joined)) return {joined};
   std::vector<std::string> parts;
   std::istringstream stream(joined);
@@ -111,12 +113,12 @@ Parameters own_parameters(const experiment::ModelEntry& model, const plugins::Ca
                           bool several) {
   const std::string prefix = several ? model.name + '.' : "";
   Parameters parameters;
-  const auto add = [&](const std::string& name, const experiment::ParameterSettings& settings, const std::string& key) {
-    const auto setting = settings.find(key);
+  const auto add = [&](const std::string& name, const experiment::ParameterSettings& settings, const std::string& own) {
+    const auto setting = settings.find(own);
     const bool shared = setting != settings.end() && setting->second.share;
     const std::string wanted = shared ? *setting->second.share : prefix + name;
-    for (const Json& group : {member(member(run, "best"), "parameters"), member(run, "fixed")})
-      if (group.contains(wanted) && std::isfinite(report::number(group.at(wanted), "value"))) {
+    for (const Json& group : {member(member(run, key::best), key::parameters), member(run, key::fixed)})
+      if (group.contains(wanted) && std::isfinite(results::number(group.at(wanted), key::value))) {
         parameters.emplace_back(name, group.at(wanted));
         return;
       }
@@ -153,8 +155,8 @@ FittedMaterial fitted_material(const ExportRequest& request, const plugins::Cata
 
   const Json& run = chosen_run(result, request.run, file);
   FittedMaterial fitted;
-  fitted.run = word(run, "run");
-  const Json& models = member(input, "models");
+  fitted.run = word(run, key::run);
+  const Json& models = member(input, key::models);
   const auto names = models_of(run, models);
   fitted.name = chosen_model(names, request.model, fitted.run, file);
   const experiment::ModelEntry model = model_entry(folder / "input.json", fitted.name, catalogue);
@@ -164,7 +166,7 @@ FittedMaterial fitted_material(const ExportRequest& request, const plugins::Cata
   try {
     parameters = own_parameters(model, catalogue, run, names.size() > 1);
     std::vector<double> values;
-    for (const auto& [name, entry] : parameters) values.push_back(report::number(entry, "value"));
+    for (const auto& [name, entry] : parameters) values.push_back(results::number(entry, key::value));
     fitted.material = cards::material_of(catalogue, {model.type, model.options}, mechanisms, values);
   } catch (const InputError& problem) {
     throw InputError(fmt::format("{}: {}", file, problem.what()));

@@ -21,7 +21,8 @@ constexpr std::size_t most_intervals = 80;   ///< specimens of which a chart of 
 /// The name of a specimen's group as populations have it: its levels of the factors.
 std::vector<std::string> factors_of(const Json& population) {
   std::vector<std::string> names;
-  for (const Json& test : list(member(population, "parameters"), "factors")) names.push_back(word(test, "factor"));
+  for (const Json& test : list(member(population, key::parameters), key::factors))
+    names.push_back(word(test, key::factor));
   return names;
 }
 
@@ -31,7 +32,7 @@ std::string group_of(const Table& table, std::size_t row, const std::vector<std:
   return name.empty() ? "all" : name;
 }
 
-const Json& cohort(const Folder& folder) { return member(folder.result(), "cohort"); }
+const Json& cohort(const Folder& folder) { return member(folder.result(), key::cohort); }
 
 /// One estimate of one specimen.
 struct Point {
@@ -76,11 +77,11 @@ Chart estimate_chart(const std::string& name, const std::string& unit, bool log,
       }
       at += 1;
     }
-    const Json& mean = member(means, group);
-    const Json& ci = list(mean, "ci95");
+    const Json& mean = entry(means, group);
+    const Json& ci = list(mean, key::ci95);
     for (const double x : {begin - 0.5, at - 0.5}) {
       typical.x.push_back(x);
-      typical.y.push_back(number(mean, "value"));
+      typical.y.push_back(number(mean, key::value));
       typical.low.push_back(ci.size() == 2 && ci[0].is_number() ? ci[0].get<double>() : NAN);
       typical.high.push_back(ci.size() == 2 && ci[1].is_number() ? ci[1].get<double>() : NAN);
     }
@@ -108,13 +109,13 @@ void add_parameters_of(Page& page, const Folder& folder, const Json& population)
   const auto table = folder.table("parameters.csv");
   const auto shrunken = folder.table("shrunken.csv");
   if (!table) return;
-  const std::string run = word(population, "run");
+  const std::string run = word(population, key::run);
   const auto factors = factors_of(population);
   std::map<std::pair<std::string, std::string>, double> helped;
   for (std::size_t row = 0; shrunken && row < shrunken->rows(); ++row)
     if (shrunken->text(row, "run") == run)
       helped[{shrunken->text(row, "specimen"), shrunken->text(row, "parameter")}] = shrunken->number(row, "estimate");
-  for (const auto& [name, one] : member(member(population, "parameters"), "of").items()) {
+  for (const auto& [name, one] : member(member(population, key::parameters), key::of).items()) {
     std::vector<Point> points;
     for (std::size_t row = 0; row < table->rows(); ++row) {
       if (table->text(row, "run") != run || table->text(row, "parameter") != name) continue;
@@ -124,8 +125,8 @@ void add_parameters_of(Page& page, const Folder& folder, const Json& population)
                         table->number(row, "lower"), table->number(row, "upper"),
                         with_help == helped.end() ? NAN : with_help->second});
     }
-    Chart chart = estimate_chart(name, word(one, "unit"), word(member(one, "spread"), "scale") == "log", points,
-                                 member(one, "means"));
+    Chart chart = estimate_chart(name, word(one, key::unit), word(member(one, key::spread), key::scale) == "log",
+                                 points, member(one, key::means));
     chart.id += "_" + run;
     chart.files = {"parameters.csv", "shrunken.csv"};
     page.chart(chart, folder.address());
@@ -139,14 +140,14 @@ void add_readings_of(Page& page, const Folder& folder, const Json& population) {
   std::map<std::string, std::string> group;
   for (std::size_t row = 0; row < table->rows(); ++row)
     group[table->text(row, "specimen")] = group_of(*table, row, factors);
-  for (const auto& [name, one] : member(member(population, "readings"), "of").items()) {
-    if (!member(one, "means").is_object()) continue;
+  for (const auto& [name, one] : member(member(population, key::readings), key::of).items()) {
+    if (!member(one, key::means).is_object()) continue;
     std::vector<Point> points;
-    for (const auto& [specimen, value] : member(one, "specimens").items())
-      points.push_back({specimen, group[specimen], number(value, "value"), NAN, NAN, NAN});
-    Chart chart = estimate_chart(name, word(one, "unit"), word(member(one, "spread"), "scale") == "log", points,
-                                 member(one, "means"));
-    chart.id += "_" + word(population, "run");
+    for (const auto& [specimen, value] : member(one, key::specimens).items())
+      points.push_back({specimen, group[specimen], number(value, key::value), NAN, NAN, NAN});
+    Chart chart = estimate_chart(name, word(one, key::unit), word(member(one, key::spread), key::scale) == "log",
+                                 points, member(one, key::means));
+    chart.id += "_" + word(population, key::run);
     chart.files = {"population.csv"};
     page.chart(chart, folder.address());
   }
@@ -197,7 +198,7 @@ std::map<std::string, std::vector<std::string>> folders_by_group(const Folder& f
   std::map<std::string, std::vector<std::string>> found;
   const auto table = folder.table("specimens.csv");
   for (std::size_t row = 0; table && row < table->rows(); ++row)
-    if (table->text(row, "outcome") == "fitted" && table->text(row, "run") == word(population, "run"))
+    if (table->text(row, "outcome") == "fitted" && table->text(row, "run") == word(population, key::run))
       found[group_of(*table, row, factors_of(population))].push_back("specimens/" + table->text(row, "folder"));
   return found;
 }
@@ -211,8 +212,8 @@ void add_bands(Page& page, const Folder& folder) {
   page.paragraph(
       "The curve of the typical material of each group. The band holds 95 % of new specimens of new animals. Points: "
       "what was measured in the specimens of the group.");
-  for (const Json& population : list(cohort(folder), "populations")) {
-    const std::string run = word(population, "run");
+  for (const Json& population : list(cohort(folder), key::populations)) {
+    const std::string run = word(population, key::run);
     const auto specimens = folders_by_group(folder, population);
     page.begin_pair();
     for (const std::string& file : files) {
@@ -256,9 +257,9 @@ void add_bands(Page& page, const Folder& folder) {
 
 void add_specimen_estimates(Page& page, const Folder& folder) {
   page.section("Parameters of the specimens");
-  for (const Json& population : list(cohort(folder), "populations")) {
-    if (!word(population, "problem").empty()) continue;
-    page.heading(word(population, "run"));
+  for (const Json& population : list(cohort(folder), key::populations)) {
+    if (!word(population, key::problem).empty()) continue;
+    page.heading(word(population, key::run));
     page.begin_pair();
     add_parameters_of(page, folder, population);
     add_readings_of(page, folder, population);
@@ -267,24 +268,24 @@ void add_specimen_estimates(Page& page, const Folder& folder) {
 }
 
 void add_specimen_fits(Page& page, const Folder& folder) {
-  const Json& specimens = list(cohort(folder), "specimens");
+  const Json& specimens = list(cohort(folder), key::specimens);
   std::size_t drawn = 0;
-  for (const Json& one : specimens) drawn += word(one, "outcome") == "fitted" ? 1 : 0;
+  for (const Json& one : specimens) drawn += word(one, key::outcome) == "fitted" ? 1 : 0;
   if (drawn == 0) return;
   page.begin_fold(fmt::format("Data and fit of {}", count_of(std::min(drawn, most_fits), "specimen", "specimens")));
   drawn = 0;
   for (const Json& one : specimens) {
-    if (word(one, "outcome") != "fitted" || drawn++ >= most_fits) continue;
-    for (const std::string& file : folder.tables_in(word(one, "folder"), "fit_")) {
+    if (word(one, key::outcome) != "fitted" || drawn++ >= most_fits) continue;
+    for (const std::string& file : folder.tables_in(word(one, key::folder), "fit_")) {
       const auto table = folder.table(file);
       if (!table) continue;
       for (std::size_t k = 2; k < table->columns().size(); ++k) {
         const auto predicted = table->find(table->columns()[k].name + ".predicted");
         if (!predicted) continue;
         Chart chart;
-        chart.title = word(one, "id");
-        chart.id = fmt::format("fit_{}_{}", word(one, "id"), k);
-        chart.about = fmt::format("Measured and fitted {} of {}", table->columns()[k].name, word(one, "id"));
+        chart.title = word(one, key::id);
+        chart.id = fmt::format("fit_{}_{}", word(one, key::id), k);
+        chart.about = fmt::format("Measured and fitted {} of {}", table->columns()[k].name, word(one, key::id));
         chart.x.title = table->title(1);
         chart.y.title = table->title(k);
         chart.low_height = true;

@@ -27,8 +27,8 @@ std::vector<std::size_t> some_of(std::size_t count, std::size_t most) {
 
 /// Mechanisms, those that the cohort speaks for most on top, over specimens: how much each speaks for each.
 void add_picture(Page& page, const Folder& folder, const Json& diagnosis) {
-  const Json& matrix = list(diagnosis, "matrix");
-  const Json& specimens = list(diagnosis, "specimens");
+  const Json& matrix = list(diagnosis, key::matrix);
+  const Json& specimens = list(diagnosis, key::specimens);
   if (matrix.empty() || specimens.empty()) return;
   Chart chart;
   chart.kind = "heat";
@@ -43,9 +43,9 @@ void add_picture(Page& page, const Folder& folder, const Json& diagnosis) {
     chart.note += fmt::format(" {} of {} specimens; the table has all.", shown.size(), specimens.size());
   for (const std::size_t s : shown) chart.columns.push_back(specimens[s].get<std::string>());
   for (std::size_t k = 0; k < std::min(matrix.size(), most_mechanisms); ++k) {
-    chart.labels.push_back(word(matrix[k], "mechanism"));
+    chart.labels.push_back(word(matrix[k], key::mechanism));
     std::vector<double> row;
-    for (const std::size_t s : shown) row.push_back(at(list(matrix[k], "log_evidence"), s));
+    for (const std::size_t s : shown) row.push_back(at(list(matrix[k], key::log_evidence), s));
     chart.values.push_back(std::move(row));
   }
   if (chart.labels.size() < matrix.size())
@@ -56,7 +56,7 @@ void add_picture(Page& page, const Folder& folder, const Json& diagnosis) {
 
 /// Gain of each specimen, with its own amplitude and with that of the others.
 void add_gain(Page& page, const Folder& folder, const Json& diagnosis) {
-  const Json& all = list(diagnosis, "left_out");
+  const Json& all = list(diagnosis, key::left_out);
   if (all.empty()) return;
   Chart chart;
   chart.id = "left_out";
@@ -72,11 +72,11 @@ void add_gain(Page& page, const Folder& folder, const Json& diagnosis) {
   double place = 0;
   for (const Json& one : all) {
     place += 1;
-    const double rows = number(one, "rows");
-    for (auto& [series, key] :
-         {std::pair<Series&, const char*>{without, "without"}, {own, "own"}, {foretold, "foretold"}}) {
+    const double rows = number(one, key::rows);
+    for (auto& [series, of] :
+         {std::pair<Series&, results::Key>{without, key::without}, {own, key::own}, {foretold, key::foretold}}) {
       series.x.push_back(place);
-      series.y.push_back(number(one, key) / rows);
+      series.y.push_back(number(one, of) / rows);
     }
   }
   chart.rule(1, "noise");
@@ -87,15 +87,15 @@ void add_gain(Page& page, const Folder& folder, const Json& diagnosis) {
 void add_rivals(Page& page, const Json& diagnosis) {
   std::vector<std::vector<Cell>> rows;
   std::vector<bool> in_set;
-  for (const Json& one : list(diagnosis, "explanations")) {
+  for (const Json& one : list(diagnosis, key::explanations)) {
     if (rows.size() == 12) break;
     std::vector<std::string> places;
-    for (const Json& place : list(one, "places")) places.push_back(word(place, "words"));
-    rows.push_back({{fmt::format("{}", fmt::join(words(list(one, "mechanisms")), " with "))},
+    for (const Json& place : list(one, key::places)) places.push_back(word(place, key::words));
+    rows.push_back({{fmt::format("{}", fmt::join(words(list(one, key::mechanisms)), " with "))},
                     {fmt::format("{}", fmt::join(places, "; "))},
-                    {share(number(one, "probability")), true},
-                    {figure(number(one, "log_weight")), true}});
-    in_set.push_back(member(one, "in_set") == true);
+                    {share(number(one, key::probability)), true},
+                    {figure(number(one, key::log_weight)), true}});
+    in_set.push_back(member(one, key::in_set) == true);
   }
   if (rows.empty()) return;
   page.heading("Explanations; those that the data cannot tell apart stand out");
@@ -104,18 +104,18 @@ void add_rivals(Page& page, const Json& diagnosis) {
 
 void add_cause_by_group(Page& page, const Json& diagnosis) {
   std::vector<std::vector<Cell>> rows;
-  for (const Json& factor : list(diagnosis, "factors"))
-    for (const Json& level : list(factor, "levels")) {
-      const Json& amplitude = member(level, "amplitude");
-      rows.push_back(
-          {{fmt::format("{} = {}", word(factor, "factor"), word(level, "level"))},
-           {figure(number(level, "specimens")), true},
-           {figure(number(level, "with")), true},
-           {amplitude.is_object() ? fmt::format("{} ({} … {})", figure(number(amplitude, "mean")),
-                                                figure(number(amplitude, "low")), figure(number(amplitude, "high")))
-                                  : "–",
-            true},
-           {word(factor, "only_in") == word(level, "level") ? "only these" : ""}});
+  for (const Json& factor : list(diagnosis, key::factors))
+    for (const Json& level : list(factor, key::levels)) {
+      const Json& amplitude = member(level, key::amplitude);
+      rows.push_back({{fmt::format("{} = {}", word(factor, key::factor), word(level, key::level))},
+                      {figure(number(level, key::specimens)), true},
+                      {figure(number(level, key::with)), true},
+                      {amplitude.is_object()
+                           ? fmt::format("{} ({} … {})", figure(number(amplitude, key::mean)),
+                                         figure(number(amplitude, key::low)), figure(number(amplitude, key::high)))
+                           : "–",
+                       true},
+                      {word(factor, key::only_in) == word(level, key::level) ? "only these" : ""}});
     }
   if (rows.empty()) return;
   page.heading("The cause by group");
@@ -125,28 +125,28 @@ void add_cause_by_group(Page& page, const Json& diagnosis) {
 }  // namespace
 
 void add_cohort_diagnosis(Page& page, const Folder& folder) {
-  const Json& diagnosis = member(folder.result(), "diagnosis");
+  const Json& diagnosis = member(folder.result(), key::diagnosis);
   if (!diagnosis.is_object()) return;
   page.section("What the model gets wrong");
-  std::vector<std::string> sentences = words(list(diagnosis, "sentences"));
+  std::vector<std::string> sentences = words(list(diagnosis, key::sentences));
   if (sentences.empty()) return;
   const std::string verdict = sentences.front();
   sentences.erase(sentences.begin());
-  page.box(word(diagnosis, "verdict") == "nothing_detected" ? "good" : "bad", verdict, sentences, 10);
+  page.box(word(diagnosis, key::verdict) == "nothing_detected" ? "good" : "bad", verdict, sentences, 10);
   std::vector<std::string> apart, without;
-  for (const Json& one : list(diagnosis, "contradictions"))
-    apart.push_back(fmt::format("{}: {}", word(one, "specimen"), word(one, "text")));
+  for (const Json& one : list(diagnosis, key::contradictions))
+    apart.push_back(fmt::format("{}: {}", word(one, key::specimen), word(one, key::text)));
   if (!apart.empty()) page.box("", "Specimens that do not go with it", apart, 5);
-  for (const Json& one : list(diagnosis, "not_diagnosed"))
-    without.push_back(fmt::format("{}: {}", word(one, "specimen"), word(one, "reason")));
+  for (const Json& one : list(diagnosis, key::not_diagnosed))
+    without.push_back(fmt::format("{}: {}", word(one, key::specimen), word(one, key::reason)));
   if (!without.empty()) page.box("bad", "Not diagnosed", without, 5);
   add_picture(page, folder, diagnosis);
   add_rivals(page, diagnosis);
   add_cause_by_group(page, diagnosis);
   add_gain(page, folder, diagnosis);
-  if (const Json& extended = member(diagnosis, "extended"); extended.is_object()) {
+  if (const Json& extended = member(diagnosis, key::extended); extended.is_object()) {
     page.paragraph("The cohort with the cause in its experiment:");
-    page.command("tunica cohort " + folder.in_command(word(extended, "cohort")));
+    page.command("tunica cohort " + folder.in_command(word(extended, key::cohort)));
   }
 }
 

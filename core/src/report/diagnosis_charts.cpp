@@ -135,8 +135,8 @@ Chart before_and_after(const Table& table, const Json& diagnosis, const Residual
 /// The mechanisms that these data cannot show, whatever their amplitude.
 std::set<std::string> absent_of(const Json& diagnosis) {
   std::set<std::string> ids;
-  for (const Json& one : list(diagnosis, "detectable"))
-    if (!word(one, "absent").empty()) ids.insert(word(one, "id"));
+  for (const Json& one : list(diagnosis, key::detectable))
+    if (!word(one, key::absent).empty()) ids.insert(word(one, key::id));
   return ids;
 }
 
@@ -152,7 +152,7 @@ void add_confusability(Page& page, const Folder& folder) {
   chart.legend_title = "likeness";
   chart.files = {table->file_name()};
   // Tables of older diagnoses list every mechanism.
-  const std::set<std::string> absent = absent_of(member(folder.result(), "diagnosis"));
+  const std::set<std::string> absent = absent_of(member(folder.result(), key::diagnosis));
   std::vector<std::size_t> columns;
   for (std::size_t k = 1; k < table->columns().size(); ++k)
     if (absent.count(table->columns()[k].name) == 0) columns.push_back(k);
@@ -169,10 +169,10 @@ void add_confusability(Page& page, const Folder& folder) {
 }
 
 /// "1 ± 0.4", "3.2 kPa"; in words where no plausible amplitude is so large.
-std::string least_amplitude(const Json& one, const char* key) {
-  const double distance = number(one, key), null = number(one, "null"), reach = number(one, "reach");
+std::string least_amplitude(const Json& one, results::Key of) {
+  const double distance = number(one, of), null = number(one, key::null), reach = number(one, key::reach);
   if (std::isfinite(reach) && distance > reach) return "beyond what is plausible";
-  const std::string text = amount(distance, word(one, "unit"));
+  const std::string text = amount(distance, word(one, key::unit));
   return std::isfinite(distance) && std::isfinite(null) && null != 0 ? figure(null) + " ± " + text : text;
 }
 
@@ -207,9 +207,9 @@ std::vector<ResidualCurve> residual_curves(const Table& table) {
 }
 
 void mark_misfit(Chart& chart, const Json& diagnosis, const ResidualCurve& curve) {
-  for (const Json& misfit : list(diagnosis, "misfit")) {
-    const double from = number(misfit, "from"), to = number(misfit, "to");
-    if (word(misfit, "test") == curve.test && word(misfit, "channel") == curve.channel && std::isfinite(from) &&
+  for (const Json& misfit : list(diagnosis, key::misfit)) {
+    const double from = number(misfit, key::from), to = number(misfit, key::to);
+    if (word(misfit, key::test) == curve.test && word(misfit, key::channel) == curve.channel && std::isfinite(from) &&
         from <= to)
       chart.band(from, to);
   }
@@ -218,19 +218,19 @@ void mark_misfit(Chart& chart, const Json& diagnosis, const ResidualCurve& curve
 void add_misfit(Page& page, const Folder& folder) {
   const auto table = folder.table("residuals.csv");
   if (!table || !table->find("residual")) return;
-  const Json& diagnosis = member(folder.result(), "diagnosis");
+  const Json& diagnosis = member(folder.result(), key::diagnosis);
   auto curves = residual_curves(*table);
   // Where something is wrong comes first, in the order of the verdict.
-  const auto& misfits = list(diagnosis, "misfit");
+  const auto& misfits = list(diagnosis, key::misfit);
   const auto place = [&](const ResidualCurve& curve) {
     return std::find_if(misfits.begin(), misfits.end(),
                         [&](const Json& misfit) {
-                          return word(misfit, "test") == curve.test && word(misfit, "channel") == curve.channel;
+                          return word(misfit, key::test) == curve.test && word(misfit, key::channel) == curve.channel;
                         }) -
            misfits.begin();
   };
   std::stable_sort(curves.begin(), curves.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
-  const bool clean = misfits.empty() && word(diagnosis, "verdict") == "nothing_detected";
+  const bool clean = misfits.empty() && word(diagnosis, key::verdict) == "nothing_detected";
   page.section(table->find("extended") ? "Before and after" : "Data and fit");
   page.begin_pair();
   for (const auto& curve : curves) page.chart(before_and_after(*table, diagnosis, curve), folder.address());
@@ -242,20 +242,20 @@ void add_misfit(Page& page, const Folder& folder) {
 }
 
 void add_reach(Page& page, const Folder& folder) {
-  const Json& diagnosis = member(folder.result(), "diagnosis");
+  const Json& diagnosis = member(folder.result(), key::diagnosis);
   page.section("Reach");
   std::vector<std::vector<Cell>> rows;
   std::vector<std::string> unseen;
-  for (const Json& one : list(diagnosis, "detectable")) {
-    if (const std::string absent = word(one, "absent"); !absent.empty()) {
-      unseen.push_back(word(one, "id") + ": " + absent);
+  for (const Json& one : list(diagnosis, key::detectable)) {
+    if (const std::string absent = word(one, key::absent); !absent.empty()) {
+      unseen.push_back(word(one, key::id) + ": " + absent);
       continue;
     }
-    rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
-                    {least_amplitude(one, "detectable"), true},
-                    {least_amplitude(one, "identifiable"), true},
-                    {word(one, "closest")},
-                    {figure(number(one, "correlation")), true}});
+    rows.push_back({{word(one, key::id) + place_words(member(one, key::target))},
+                    {least_amplitude(one, key::detectable), true},
+                    {least_amplitude(one, key::identifiable), true},
+                    {word(one, key::closest)},
+                    {figure(number(one, key::correlation)), true}});
   }
   if (!rows.empty()) {
     page.heading("What these data would show");

@@ -31,15 +31,15 @@ struct Candidate {
 /// All candidates, the one that explains most first.
 std::vector<Candidate> candidates_of(const Json& diagnosis) {
   std::vector<Candidate> candidates;
-  for (const Json& one : list(diagnosis, "scores"))
-    candidates.push_back({word(one, "id") + place_words(member(one, "target")), word(one, "id"), word(one, "group"),
-                          number(one, "score"), number(one, "p_value")});
+  for (const Json& one : list(diagnosis, key::scores))
+    candidates.push_back({word(one, key::id) + place_words(member(one, key::target)), word(one, key::id),
+                          word(one, key::group), number(one, key::score), number(one, key::p_value)});
   // A cause with a nonlinear trace shows only after a fit, perhaps in another place.
-  for (const Json& one : list(diagnosis, "ranking"))
+  for (const Json& one : list(diagnosis, key::ranking))
     for (Candidate& candidate : candidates)
-      if (candidate.id == word(one, "id") && std::isfinite(number(one, "gain"))) {
-        candidate.gain = std::max(number(one, "gain"), 0.0);
-        candidate.label = candidate.id + place_words(member(one, "target"));
+      if (candidate.id == word(one, key::id) && std::isfinite(number(one, key::gain))) {
+        candidate.gain = std::max(number(one, key::gain), 0.0);
+        candidate.label = candidate.id + place_words(member(one, key::target));
       }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.most() > b.most(); });
@@ -78,15 +78,15 @@ std::string fall(double value) { return std::abs(value) < 5e-3 ? "0" : figure(va
 void add_ranking_table(Page& page, const Json& diagnosis, const Group& group, bool headed) {
   std::vector<std::vector<Cell>> rows;
   std::vector<bool> first;
-  const auto named = words(list(diagnosis, "ambiguity_set"));
-  const bool ranked = !list(diagnosis, "ranking").empty();
-  for (const Json& one : list(diagnosis, ranked ? "ranking" : "causes")) {
-    if (word(one, "group") != group.code) continue;
-    rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
-                    {share(number(one, "probability")), true},
-                    {fall(number(one, "score")), true},
-                    {fall(number(one, "gain")), true}});
-    first.push_back(std::find(named.begin(), named.end(), word(one, "id")) != named.end());
+  const auto named = words(list(diagnosis, key::ambiguity_set));
+  const bool ranked = !list(diagnosis, key::ranking).empty();
+  for (const Json& one : list(diagnosis, ranked ? key::ranking : key::causes)) {
+    if (word(one, key::group) != group.code) continue;
+    rows.push_back({{word(one, key::id) + place_words(member(one, key::target))},
+                    {share(number(one, key::probability)), true},
+                    {fall(number(one, key::score)), true},
+                    {fall(number(one, key::gain)), true}});
+    first.push_back(std::find(named.begin(), named.end(), word(one, key::id)) != named.end());
   }
   if (rows.empty()) return;
   if (headed) page.heading(group.heading);
@@ -115,10 +115,10 @@ void add_shifts(Page& page, const Json& diagnosis) {
     std::vector<Cell> cells;
   };
   std::vector<Shift> shifts;
-  for (const Json& cause : list(diagnosis, "causes"))
-    for (const Json& shift : list(cause, "parameter_shifts")) {
-      const double before = number(shift, "without"), after = number(shift, "with");
-      std::vector<Cell> cells{{text::titled(word(shift, "parameter"), word(shift, "unit"))},
+  for (const Json& cause : list(diagnosis, key::causes))
+    for (const Json& shift : list(cause, key::parameter_shifts)) {
+      const double before = number(shift, key::without), after = number(shift, key::with);
+      std::vector<Cell> cells{{text::titled(word(shift, key::parameter), word(shift, key::unit))},
                               {figure(before), true},
                               {figure(after), true},
                               {change_words(before, after), true}};
@@ -127,9 +127,9 @@ void add_shifts(Page& page, const Json& diagnosis) {
                           [](const Cell& a, const Cell& b) { return a.text == b.text; });
       });
       if (same == shifts.end())
-        shifts.push_back({{word(cause, "id")}, std::move(cells)});
+        shifts.push_back({{word(cause, key::id)}, std::move(cells)});
       else
-        same->causes.push_back(word(cause, "id"));
+        same->causes.push_back(word(cause, key::id));
     }
   if (shifts.empty()) return;
   std::vector<std::vector<Cell>> rows;
@@ -152,15 +152,15 @@ Chart gain_chart(const Json& gain) {
   chart.rule(1, "noise", 'x');
   chart.files = {"result.json"};
   RowSeries before{"model as given", 1, {}}, after{"with the cause", 0, {}};
-  for (const Json& block : list(gain, "held_out")) {
-    chart.labels.push_back(word(block, "block"));
-    const double rows = number(block, "rows");
+  for (const Json& block : list(gain, key::held_out)) {
+    chart.labels.push_back(word(block, key::block));
+    const double rows = number(block, key::rows);
     const std::string much = std::isfinite(rows) ? fmt::format(" ({:.0f} rows)", rows) : "";
-    before.rows.push_back(
-        {number(block, "before"), NAN, NAN, fmt::format("as given: {}{}", figure(number(block, "before")), much)});
-    after.rows.push_back(
-        {number(block, "after"), NAN, NAN,
-         fmt::format("with the cause: {}, {}", figure(number(block, "after")), chance(number(block, "p_value")))});
+    before.rows.push_back({number(block, key::before), NAN, NAN,
+                           fmt::format("as given: {}{}", figure(number(block, key::before)), much)});
+    after.rows.push_back({number(block, key::after), NAN, NAN,
+                          fmt::format("with the cause: {}, {}", figure(number(block, key::after)),
+                                      chance(number(block, key::p_value)))});
   }
   chart.rows = {std::move(before), std::move(after)};
   return chart;
@@ -168,19 +168,19 @@ Chart gain_chart(const Json& gain) {
 
 void add_noise(Page& page, const Json& diagnosis) {
   std::vector<std::vector<Cell>> rows;
-  for (const Json& one : list(diagnosis, "noise")) {
-    const std::string source = word(one, "source");
-    const double relative = number(one, "relative");
-    rows.push_back({{word(one, "test")},
-                    {word(one, "channel")},
+  for (const Json& one : list(diagnosis, key::noise)) {
+    const std::string source = word(one, key::source);
+    const double relative = number(one, key::relative);
+    rows.push_back({{word(one, key::test)},
+                    {word(one, key::channel)},
                     {source == "stated"         ? "stated in the experiment"
                      : source == "replicates"   ? "from replicates"
                      : source == "differences"  ? "estimated from differences of neighbouring rows"
                      : source == "encompassing" ? "estimated from what no candidate explains"
                                                 : source},
-                    {amount(number(one, "absolute"), word(one, "unit")), true},
+                    {amount(number(one, key::absolute), word(one, key::unit)), true},
                     {std::isfinite(relative) ? fmt::format("{:.3g} %", 100 * relative) : "–", true},
-                    {figure(number(one, "correlation")), true}});
+                    {figure(number(one, key::correlation)), true}});
   }
   if (rows.empty()) return;
   page.section("Noise, and how it is known");
@@ -192,16 +192,16 @@ void add_noise(Page& page, const Json& diagnosis) {
 
 /// Mistakes of the file that are as likely as the causes, or likelier: each with what to write into the file.
 static void add_file(Page& page, const Json& diagnosis) {
-  const Json& file = member(diagnosis, "file");
-  const std::string standing = word(file, "standing");
+  const Json& file = member(diagnosis, key::file);
+  const std::string standing = word(file, key::standing);
   if (standing != "near" && standing != "ahead") return;
   std::vector<std::vector<Cell>> rows;
-  for (const Json& cause : list(file, "causes"))
-    if (member(cause, "near") == true)
-      rows.push_back({{word(cause, "sentence")},
-                      {word(cause, "mend")},
-                      {figure(number(cause, "squares")), true},
-                      {chance(number(cause, "p_after")), true}});
+  for (const Json& cause : list(file, key::causes))
+    if (member(cause, key::near) == true)
+      rows.push_back({{word(cause, key::sentence)},
+                      {word(cause, key::mend)},
+                      {figure(number(cause, key::squares)), true},
+                      {chance(number(cause, key::p_after)), true}});
   page.section("What the file may say that is not so");
   page.paragraph(standing == "ahead" ? "Mended, the base model describes the data. No other cause comes close."
                                      : "Mended, the base model describes the data. Ask this before any other cause.");
@@ -209,17 +209,17 @@ static void add_file(Page& page, const Json& diagnosis) {
 }
 
 void add_candidates(Page& page, const Folder& folder) {
-  const Json& diagnosis = member(folder.result(), "diagnosis");
+  const Json& diagnosis = member(folder.result(), key::diagnosis);
   add_file(page, diagnosis);
   const std::vector<Candidate> candidates = candidates_of(diagnosis);
-  if (candidates.empty() && list(diagnosis, "causes").empty()) return;
+  if (candidates.empty() && list(diagnosis, key::causes).empty()) return;
   page.section("Candidate causes");
   const bool grouped =
       std::any_of(candidates.begin(), candidates.end(), [](const auto& one) { return !one.group.empty(); });
   if (grouped)
     page.paragraph("Causes in the material and causes in the rig are ranked together, by the same evidence.");
   for (const Group& group : all_groups) add_ranking_table(page, diagnosis, group, grouped);
-  if (std::vector<std::string> rivals = words(list(diagnosis, "explanations")); rivals.size() > 1) {
+  if (std::vector<std::string> rivals = words(list(diagnosis, key::explanations)); rivals.size() > 1) {
     const std::string first = rivals.front();
     rivals.erase(rivals.begin());
     page.box("", "What explains the misfit about as well as " + first, rivals);
@@ -228,28 +228,28 @@ void add_candidates(Page& page, const Folder& folder) {
 }
 
 void add_extension(Page& page, const Folder& folder) {
-  const Json& diagnosis = member(folder.result(), "diagnosis");
-  const Json& gain = member(diagnosis, "gain");
+  const Json& diagnosis = member(folder.result(), key::diagnosis);
+  const Json& gain = member(diagnosis, key::gain);
   if (gain.is_object()) {
     page.section("Gain");
-    const Json& wrong = member(gain, "best_wrong");
+    const Json& wrong = member(gain, key::best_wrong);
     page.words({{"In these data",
-                 fmt::format("the sum of squares falls by {} (from {} to {})", figure(number(gain, "in_sample")),
-                             figure(number(gain, "before")), figure(number(gain, "after")))},
+                 fmt::format("the sum of squares falls by {} (from {} to {})", figure(number(gain, key::in_sample)),
+                             figure(number(gain, key::before)), figure(number(gain, key::after)))},
                 {"Where nothing is wrong",
-                 std::isfinite(number(gain, "expected_under_nothing"))
-                     ? "a fall of " + figure(number(gain, "expected_under_nothing")) + " would be expected"
+                 std::isfinite(number(gain, key::expected_under_nothing))
+                     ? "a fall of " + figure(number(gain, key::expected_under_nothing)) + " would be expected"
                      : ""},
-                {"Best of the other causes", wrong.is_object() ? fmt::format("{}: a fall of {}", word(wrong, "id"),
-                                                                             figure(number(wrong, "in_sample")))
+                {"Best of the other causes", wrong.is_object() ? fmt::format("{}: a fall of {}", word(wrong, key::id),
+                                                                             figure(number(wrong, key::in_sample)))
                                                                : ""}});
     page.chart(gain_chart(gain), folder.address());
   }
   add_shifts(page, diagnosis);
-  const Json& stable = member(member(diagnosis, "admissibility"), "stable");
+  const Json& stable = member(member(diagnosis, key::admissibility), key::stable);
   if (stable.is_boolean()) {
-    const Json& admissibility = member(diagnosis, "admissibility");
-    const std::string where = word(admissibility, "where"), remedy = word(admissibility, "remedy");
+    const Json& admissibility = member(diagnosis, key::admissibility);
+    const std::string where = word(admissibility, key::where), remedy = word(admissibility, key::remedy);
     page.section("Admissibility");
     page.box(stable == true ? "good" : "bad",
              stable == true ? "The fitted material is stable where it was measured."
@@ -272,7 +272,7 @@ void add_diagnosis(Page& page, const Folder& folder) {
   add_candidates(page, folder);
   add_extension(page, folder);
   add_reach(page, folder);
-  add_noise(page, member(folder.result(), "diagnosis"));
+  add_noise(page, member(folder.result(), key::diagnosis));
   add_provenance(page, folder);
 }
 

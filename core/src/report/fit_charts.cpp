@@ -30,10 +30,10 @@ std::string own_abscissa(const Json& result, const std::string& test, const std:
       return of_name == of_file || of_file == '-';  // see comparison::file_stem
     });
   };
-  for (const Json& run : list(result, "runs"))
-    for (const auto& [name, fit] : member(member(run, "best"), "per_test").items())
-      for (const Json& one : list(fit, "channels"))
-        if (same(name) && word(one, "channel") == channel) return word(one, "over");
+  for (const Json& run : list(result, key::runs))
+    for (const auto& [name, fit] : member(member(run, key::best), key::per_test).items())
+      for (const Json& one : list(fit, key::channels))
+        if (same(name) && word(one, key::channel) == channel) return word(one, key::over);
   return "";
 }
 
@@ -208,15 +208,15 @@ void add_quality(Page& page, const Order& order) {
   for (const auto& run : order.runs()) {
     if (run.rank != 1) continue;
     std::vector<std::vector<Cell>> rows;
-    const Json& tests = member(member(*run.run, "best"), "per_test");
+    const Json& tests = member(member(*run.run, key::best), key::per_test);
     for (const auto& [test, fit] : tests.items())
-      for (const Json& channel : list(fit, "channels")) {
-        const bool held = member(channel, "held_out") == true;
-        const std::string r2 = figure(number(channel, "r2")),
-                          rmse = amount(number(channel, "rmse"), word(channel, "unit"));
-        const bool bad = number(channel, "r2") < 0;  // worse than the mean of the data
+      for (const Json& channel : list(fit, key::channels)) {
+        const bool held = member(channel, key::held_out) == true;
+        const std::string r2 = figure(number(channel, key::r2)),
+                          rmse = amount(number(channel, key::rmse), word(channel, key::unit));
+        const bool bad = number(channel, key::r2) < 0;  // worse than the mean of the data
         rows.push_back({{test},
-                        {word(channel, "channel")},
+                        {word(channel, key::channel)},
                         {held ? "" : r2, true, bad},
                         {held ? "" : rmse, true},
                         {held ? r2 : "", true, bad},

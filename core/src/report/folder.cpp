@@ -30,9 +30,9 @@ Folder::Folder(std::filesystem::path path, std::string address) : path_(std::mov
     return;
   }
   read_result(file);
-  if (member(result_, "discovery").is_object()) kind_ = Kind::discovery;
-  if (member(result_, "diagnosis").is_object()) kind_ = Kind::diagnosis;
-  if (member(result_, "cohort").is_object()) kind_ = Kind::cohort;
+  if (member(result_, key::discovery).is_object()) kind_ = Kind::discovery;
+  if (member(result_, key::diagnosis).is_object()) kind_ = Kind::diagnosis;
+  if (member(result_, key::cohort).is_object()) kind_ = Kind::cohort;
 }
 
 void Folder::read_result(const std::filesystem::path& file) {
@@ -45,19 +45,19 @@ void Folder::read_result(const std::filesystem::path& file) {
   }
   if (!result_.is_object())
     throw InputError(fmt::format("{}: expected an object at the top; run it again", file.string()));
-  if (file.filename() == "result.json" && member(result_, "format").is_null())
+  if (file.filename() == "result.json" && member(result_, key::format).is_null())
     throw InputError(fmt::format(
         "{}: has no \"format\", so that it is not what `tunica run` or `diagnose` has written; name a folder "
         "that they have written",
         file.string()));
-  if (const Json& format = member(result_, "format"); !format.is_null() && format != 1)
+  if (const Json& format = member(result_, key::format); !format.is_null() && format != 1)
     throw InputError(
         fmt::format("{}: \"format\" is {}, and this version of tunica reads 1. Use the version that wrote it.",
                     file.string(), text::excerpt(format.dump())));
 }
 
 std::string Folder::name() const {
-  std::string given = word(result_, "name");
+  std::string given = word(result_, key::name);
   if (!given.empty()) return given;
   const auto last = path_.filename().empty() ? path_.parent_path().filename() : path_.filename();
   return last.string();

@@ -16,15 +16,16 @@ namespace {
 
 constexpr std::size_t most_runs = 12;
 struct Kind {
-  const char *key, *name;
+  results::Key key;
+  const char* name;
 };
-constexpr std::array<Kind, 4> kinds{{{"ci95", "linearised"},
-                                     {"profile_ci95", "profile"},
-                                     {"bootstrap_ci95", "bootstrap"},
-                                     {"posterior_ci95", "posterior"}}};
+constexpr std::array<Kind, 4> kinds{{{key::ci95, "linearised"},
+                                     {key::profile_ci95, "profile"},
+                                     {key::bootstrap_ci95, "bootstrap"},
+                                     {key::posterior_ci95, "posterior"}}};
 
-std::pair<double, double> interval(const Json& estimate, const char* key) {
-  const Json& pair = member(estimate, key);
+std::pair<double, double> interval(const Json& estimate, results::Key of) {
+  const Json& pair = member(estimate, of);
   const auto end = [&](std::size_t k) {
     return pair.is_array() && pair.size() == 2 && pair[k].is_number() ? pair[k].get<double>() : NAN;
   };
@@ -35,41 +36,43 @@ std::pair<double, double> interval(const Json& estimate, const char* key) {
 std::string interval_words(const Json& estimate, const Kind& kind) {
   const auto [low, high] = interval(estimate, kind.key);
   if (!std::isfinite(low) && !std::isfinite(high)) return "not fixed by the data";
-  return fmt::format("{} … {}{}", std::isfinite(low) ? figure(low) : "open",
-                     std::isfinite(high) ? figure(high) : "open",
-                     kind.key == std::string("ci95") && member(estimate, "ci95_reliable") == false ? " (rough)" : "");
+  return fmt::format(
+      "{} … {}{}", std::isfinite(low) ? figure(low) : "open", std::isfinite(high) ? figure(high) : "open",
+      kind.key.text == key::ci95.text && member(estimate, key::ci95_reliable) == false ? " (rough)" : "");
 }
 
 void add_table(Page& page, const Order::Run& run) {
   std::vector<std::vector<Cell>> rows;
   std::vector<std::string> head{"parameter", "value"};
-  const Json& best = member(*run.run, "best");
-  const Json& parameters = member(best, "parameters");
+  const Json& best = member(*run.run, key::best);
+  const Json& parameters = member(best, key::parameters);
   std::vector<Kind> made;
   for (const Kind& kind : kinds) {
-    bool any = kind.key == std::string("ci95");
+    bool any = kind.key.text == key::ci95.text;
     for (const auto& [name, estimate] : parameters.items()) any = any || member(estimate, kind.key).is_array();
     if (!any) continue;
     made.push_back(kind);
     head.push_back(fmt::format("95 %, {}", kind.name));
   }
   bool meshed = false;
-  for (const auto& [name, estimate] : parameters.items()) meshed = meshed || member(estimate, "mesh_bias").is_number();
+  for (const auto& [name, estimate] : parameters.items())
+    meshed = meshed || member(estimate, key::mesh_bias).is_number();
   if (meshed) head.push_back("of which the mesh");
   head.insert(head.end(), {"bounds", ""});
   for (const auto& [name, estimate] : parameters.items()) {
-    const std::string bound = word(estimate, "at_bound");
-    auto& row = rows.emplace_back(
-        std::vector<Cell>{{text::titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}});
+    const std::string bound = word(estimate, key::at_bound);
+    auto& row = rows.emplace_back(std::vector<Cell>{{text::titled(name, word(estimate, key::unit))},
+                                                    {figure(number(estimate, key::value)), true}});
     for (const Kind& kind : made) row.push_back({interval_words(estimate, kind)});
     if (meshed)
-      row.push_back({member(estimate, "mesh_bias").is_number() ? figure(number(estimate, "mesh_bias")) : "", true});
-    row.push_back({fmt::format("{} … {}", figure(number(estimate, "min")), figure(number(estimate, "max")))});
+      row.push_back(
+          {member(estimate, key::mesh_bias).is_number() ? figure(number(estimate, key::mesh_bias)) : "", true});
+    row.push_back({fmt::format("{} … {}", figure(number(estimate, key::min)), figure(number(estimate, key::max)))});
     row.push_back({bound.empty() ? "" : "at its " + bound + " bound", false, true});
   }
-  for (const auto& [name, estimate] : member(*run.run, "fixed").items()) {
+  for (const auto& [name, estimate] : member(*run.run, key::fixed).items()) {
     auto& row = rows.emplace_back(std::vector<Cell>{
-        {text::titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}, {"fixed"}});
+        {text::titled(name, word(estimate, key::unit))}, {figure(number(estimate, key::value)), true}, {"fixed"}});
     row.resize(head.size());
   }
   if (rows.empty()) return;
@@ -77,7 +80,7 @@ void add_table(Page& page, const Order::Run& run) {
   page.html(table_html(head, rows));
   std::vector<std::string> sentences, names;
   for (const auto& entry : parameters.items()) names.push_back(entry.key());
-  for (const std::string& sentence : words(list(best, "uncertainty")))
+  for (const std::string& sentence : words(list(best, key::uncertainty)))
     sentences.push_back(text::capitalised(sentence, names) + '.');
   if (!sentences.empty()) page.box("", "What to make of the intervals", sentences, 3);
 }
@@ -92,17 +95,17 @@ Chart across_runs(const std::string& name, const std::vector<const Order::Run*>&
   std::array<bool, kinds.size()> used{true};
   for (std::size_t k = 0; k < kinds.size(); ++k) series[k] = {kinds[k].name, static_cast<int>(k), {}};
   for (const Order::Run* run : runs) {
-    const Json& estimate = member(member(member(*run->run, "best"), "parameters"), name);
-    chart.x.title = text::titled(name, word(estimate, "unit"));
+    const Json& estimate = entry(member(member(*run->run, key::best), key::parameters), name);
+    chart.x.title = text::titled(name, word(estimate, key::unit));
     // A dot alone would look precise.
-    bool open =
-        member(member(*run->run, "best"), "covariance").is_object() && !member(estimate, "at_bound").is_string();
+    bool open = member(member(*run->run, key::best), key::covariance).is_object() &&
+                !member(estimate, key::at_bound).is_string();
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const auto [low, high] = interval(estimate, kinds[k].key);
       const bool known = std::isfinite(low) || std::isfinite(high);
       used[k] = used[k] || known;
       open = open && !known;
-      series[k].rows.push_back({k == 0 || std::isfinite(low) ? number(estimate, "value") : NAN, low, high, ""});
+      series[k].rows.push_back({k == 0 || std::isfinite(low) ? number(estimate, key::value) : NAN, low, high, ""});
     }
     chart.labels.push_back(run->label + (open ? ", not fixed" : ""));
   }
@@ -192,7 +195,7 @@ void add_pairs(Page& page, const Folder& folder, const Order& order) {
 
 void add_parameters(Page& page, const Folder& folder, const Order& order) {
   page.section("Parameters");
-  const auto sentences = words(list(folder.result(), "identifiability"));
+  const auto sentences = words(list(folder.result(), key::identifiability));
   if (!sentences.empty()) page.box("", "What the data fix, and what they do not", sentences, 4);
   std::vector<std::string> models;
   for (const auto& run : order.runs())
@@ -200,7 +203,7 @@ void add_parameters(Page& page, const Folder& folder, const Order& order) {
   for (const std::string& model : models) {
     std::vector<const Order::Run*> runs;
     for (const auto& run : order.runs())
-      if (run.model == model && member(*run.run, "best").is_object()) runs.push_back(&run);
+      if (run.model == model && member(*run.run, key::best).is_object()) runs.push_back(&run);
     if (runs.empty()) continue;
     add_table(page, *runs.front());
     if (runs.size() < 2) continue;
@@ -211,7 +214,7 @@ void add_parameters(Page& page, const Folder& folder, const Order& order) {
       runs.resize(most_runs);
     }
     page.begin_pair();
-    const Json parameters = member(member(*runs.front()->run, "best"), "parameters");
+    const Json parameters = member(member(*runs.front()->run, key::best), key::parameters);
     for (const auto& [name, estimate] : parameters.items()) {
       Chart chart = across_runs(name, runs);
       chart.id += '_' + model;

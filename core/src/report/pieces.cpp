@@ -11,37 +11,6 @@
 
 namespace tunica::report {
 
-const Json& member(const Json& object, std::string_view key) {
-  static const Json nothing;
-  if (!object.is_object()) return nothing;
-  const auto found = object.find(std::string(key));
-  return found == object.end() ? nothing : *found;
-}
-
-const Json& list(const Json& object, std::string_view key) {
-  static const Json nothing = Json::array();
-  const Json& value = member(object, key);
-  return value.is_array() ? value : nothing;
-}
-
-std::string word(const Json& object, std::string_view key) {
-  const Json& value = member(object, key);
-  return value.is_string() ? value.get<std::string>() : "";
-}
-
-double number(const Json& object, std::string_view key) {
-  const Json& value = member(object, key);
-  return value.is_number() ? value.get<double>() : NAN;
-}
-
-std::vector<std::string> words(const Json& list) {
-  std::vector<std::string> result;
-  if (list.is_array())
-    for (const Json& entry : list)
-      if (entry.is_string()) result.push_back(entry.get<std::string>());
-  return result;
-}
-
 std::string figure(double value) {
   if (!std::isfinite(value)) return "–";
   const bool whole = value == std::round(value) && std::abs(value) < 1e9;    // counts are not rounded
@@ -66,20 +35,21 @@ std::string count_of(std::size_t count, const std::string& one, const std::strin
 
 Order::Order(const Json& result) {
   std::vector<const Json*> left;
-  for (const Json& run : list(result, "runs")) left.push_back(&run);
+  for (const Json& run : list(result, key::runs)) left.push_back(&run);
   const auto take = [&](const std::string& label, const std::string& group, int rank) {
-    const auto at = std::find_if(left.begin(), left.end(), [&](const Json* run) { return word(*run, "run") == label; });
+    const auto at =
+        std::find_if(left.begin(), left.end(), [&](const Json* run) { return word(*run, key::run) == label; });
     if (at == left.end()) return;
-    runs_.push_back({label, word(**at, "model"), word(**at, "optimizer"), group, *at, rank});
+    runs_.push_back({label, word(**at, key::model), word(**at, key::optimizer), group, *at, rank});
     left.erase(at);
   };
-  for (const Json& entry : list(result, "ranking")) {
-    const double rank = number(entry, "rank");
-    take(word(entry, "run"), word(entry, "group"), std::isfinite(rank) ? static_cast<int>(rank) : 0);
+  for (const Json& entry : list(result, key::ranking)) {
+    const double rank = number(entry, key::rank);
+    take(word(entry, key::run), word(entry, key::group), std::isfinite(rank) ? static_cast<int>(rank) : 0);
   }
   while (!left.empty()) {
     const Json& run = *left.front();
-    runs_.push_back({word(run, "run"), word(run, "model"), word(run, "optimizer"), "", &run, 0});
+    runs_.push_back({word(run, key::run), word(run, key::model), word(run, key::optimizer), "", &run, 0});
     left.erase(left.begin());
   }
 }
@@ -106,14 +76,14 @@ std::vector<std::string> Order::groups() const {
 
 std::string Order::title(const std::string& group) const {
   const auto at = std::find_if(runs_.begin(), runs_.end(), [&](const Run& run) { return run.group == group; });
-  const std::string objective = at == runs_.end() ? "" : word(*at->run, "objective_type");
+  const std::string objective = at == runs_.end() ? "" : word(*at->run, key::objective_type);
   if (objective.empty()) return group;  // older than the key
   std::vector<std::string> fitted;
   std::size_t held_out = 0;
-  for (const std::string& test : words(list(*at->run, "tests"))) {
-    const Json& channels = list(member(member(member(*at->run, "best"), "per_test"), test), "channels");
+  for (const std::string& test : words(list(*at->run, key::tests))) {
+    const Json& channels = list(entry(member(member(*at->run, key::best), key::per_test), test), key::channels);
     const bool held = !channels.empty() && std::all_of(channels.begin(), channels.end(), [](const Json& channel) {
-      return member(channel, "held_out") == true;
+      return member(channel, key::held_out) == true;
     });
     held_out += held ? 1 : 0;
     if (!held) fitted.push_back(test);

@@ -6,20 +6,19 @@
 #include <vector>
 
 #include "report/chart.hpp"
+#include "results/keys.hpp"
+#include "results/reading.hpp"
 
-/// Small readers of JSON that may lack anything, and the same numbers in words everywhere.
+/// The same numbers in words everywhere, and the order of runs.
 namespace tunica::report {
 
-/// The value of a key; null where there is none, or no object.
-const Json& member(const Json& object, std::string_view key);
-/// The list of a key; an empty one where there is none.
-const Json& list(const Json& object, std::string_view key);
-/// Text of a key; "" where there is none.
-std::string word(const Json& object, std::string_view key);
-/// Number of a key; NaN where there is none.
-double number(const Json& object, std::string_view key);
-/// The strings of a list.
-std::vector<std::string> words(const Json& list);
+namespace key = results::key;
+using results::entry;
+using results::list;
+using results::member;
+using results::number;
+using results::word;
+using results::words;
 
 /// Four digits, or "–" for a missing number.
 std::string figure(double value);

@@ -22,8 +22,8 @@ struct Draws {
 
 std::vector<Draws> draws_of(const Json& document, const Json& parameters) {
   std::vector<Draws> found;
-  for (const auto& [name, chains] : member(document, "posterior").items()) {
-    Draws one{name, text::titled(name, word(member(parameters, name), "unit")), {}};
+  for (const auto& [name, chains] : member(document, key::posterior).items()) {
+    Draws one{name, text::titled(name, word(entry(parameters, name), key::unit)), {}};
     if (chains.is_array())
       for (const Json& chain : chains)
         if (chain.is_array())
@@ -57,8 +57,8 @@ Chart histogram(const Draws& draws, const Json& estimate, const std::string& run
     series.y.push_back(k < bins ? shares[k] : 0);
   }
   chart.series.push_back(std::move(series));
-  for (const auto& [key, label] : {std::pair{"ci95", "linearised"}, std::pair{"posterior_ci95", "95 %"}})
-    for (const Json& end : list(estimate, key))
+  for (const auto& [of, label] : {std::pair{key::ci95, "linearised"}, std::pair{key::posterior_ci95, "95 %"}})
+    for (const Json& end : list(estimate, of))
       if (end.is_number()) chart.rule(end.get<double>(), label, 'x');
   return chart;
 }
@@ -88,13 +88,13 @@ Chart pair(const Draws& a, const Draws& b, const std::string& run, const std::st
 void add_posterior(Page& page, const Folder& folder, const Order& order) {
   std::size_t shown = 0;
   for (const Order::Run& run : order.runs()) {
-    const Json& best = member(*run.run, "best");
-    const std::string file = word(member(best, "posterior"), "file");
+    const Json& best = member(*run.run, key::best);
+    const std::string file = word(member(best, key::posterior), key::file);
     if (!file.starts_with("posterior_") || file.find('/') != std::string::npos || shown == shown_runs_of_draws)
       continue;
     const auto document = folder.document(file);
     if (!document) continue;
-    const Json& parameters = member(best, "parameters");
+    const Json& parameters = member(best, key::parameters);
     const auto draws = draws_of(*document, parameters);
     if (draws.empty()) continue;
     ++shown;
@@ -102,7 +102,7 @@ void add_posterior(Page& page, const Folder& folder, const Order& order) {
     page.begin_pair();
     for (const Draws& one : draws) {
       const auto [low, high] = std::minmax_element(one.values.begin(), one.values.end());
-      if (*high > *low) page.chart(histogram(one, member(parameters, one.name), run.label, file), folder.address());
+      if (*high > *low) page.chart(histogram(one, entry(parameters, one.name), run.label, file), folder.address());
     }
     std::size_t made = 0;
     for (std::size_t a = 0; a < draws.size(); ++a)

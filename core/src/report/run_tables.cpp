@@ -20,8 +20,8 @@ std::vector<std::string> merged(const Json& result) {
     std::string sentence;
   };
   std::vector<Merged> all;
-  for (const Json& warning : list(result, "warning_details")) {
-    const std::string run = word(warning, "run"), sentence = word(warning, "sentence");
+  for (const Json& warning : list(result, key::warning_details)) {
+    const std::string run = word(warning, key::run), sentence = word(warning, key::sentence);
     const auto same = std::find_if(all.begin(), all.end(), [&](const Merged& one) {
       return !run.empty() && !one.runs.empty() && one.sentence == sentence;
     });
@@ -30,7 +30,7 @@ std::vector<std::string> merged(const Json& result) {
     else
       all.push_back({run.empty() ? std::vector<std::string>{} : std::vector{run}, sentence});
   }
-  if (all.empty()) return words(list(result, "warnings"));
+  if (all.empty()) return words(list(result, key::warnings));
   std::vector<std::string> lines;
   constexpr std::size_t named = 3;
   for (Merged& one : all) {
@@ -43,7 +43,7 @@ std::vector<std::string> merged(const Json& result) {
 
 /// " (h = 0.7)": the difference between a run and others with its model and optimizer.
 std::string differences(const Json& run) {
-  const auto parts = words(list(run, "differs_by"));
+  const auto parts = words(list(run, key::differs_by));
   return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, ", "));
 }
 
@@ -56,36 +56,37 @@ void add_warnings(Page& page, const Folder& folder) {
 }
 
 void add_ranking(Page& page, const Folder& folder, const Order& order) {
-  if (list(folder.result(), "ranking").empty()) return;
+  if (list(folder.result(), key::ranking).empty()) return;
   page.section("Ranking");
   const auto groups = order.groups();
   for (const std::string& group : groups) {
     if (groups.size() > 1) page.heading(group.empty() ? "Without rank" : order.title(group));
     std::vector<std::vector<Cell>> rows;
     std::vector<bool> first;
-    for (const Json& entry : list(folder.result(), "ranking")) {
-      if (word(entry, "group") != group) continue;
-      const std::size_t place = order.place(word(entry, "run"));
+    for (const Json& entry : list(folder.result(), key::ranking)) {
+      if (word(entry, key::group) != group) continue;
+      const std::size_t place = order.place(word(entry, key::run));
       const Json& run = place < order.runs().size() ? *order.runs()[place].run : entry;
-      const Json& best = member(run, "best");
-      const Json& stable = member(best, "stable");
-      const double rank = number(entry, "rank");
+      const Json& best = member(run, key::best);
+      const Json& stable = member(best, key::stable);
+      const double rank = number(entry, key::rank);
       rows.push_back(
           {{std::isfinite(rank) ? figure(rank) : "–", true},
-           {word(entry, "run") + differences(run)},
-           {figure(number(entry, "objective")), true},
-           {figure(number(entry, "delta_aicc")), true},
-           {figure(number(member(best, "misfit"), "reduced_chi_square")), true,
-            member(member(best, "misfit"), "contradicts_noise") == true},
-           {fmt::format("{} / {}", figure(number(entry, "successes")), figure(number(run, "realisations"))), true},
-           {figure(number(entry, "expected_running_time")), true},
-           {figure(number(run, "evaluations")), true},
-           {figure(number(run, "jacobians")), true},
-           {figure(number(member(run, "full_simulations"), "count")), true},
-           {figure(number(run, "failures")), true, number(run, "failures") > 0},
-           {figure(number(run, "seconds")), true},
+           {word(entry, key::run) + differences(run)},
+           {figure(number(entry, key::objective)), true},
+           {figure(number(entry, key::delta_aicc)), true},
+           {figure(number(member(best, key::misfit), key::reduced_chi_square)), true,
+            member(member(best, key::misfit), key::contradicts_noise) == true},
+           {fmt::format("{} / {}", figure(number(entry, key::successes)), figure(number(run, key::realisations))),
+            true},
+           {figure(number(entry, key::expected_running_time)), true},
+           {figure(number(run, key::evaluations)), true},
+           {figure(number(run, key::jacobians)), true},
+           {figure(number(member(run, key::full_simulations), key::count)), true},
+           {figure(number(run, key::failures)), true, number(run, key::failures) > 0},
+           {figure(number(run, key::seconds)), true},
            {stable.is_boolean() ? (stable == true ? "yes" : "NO") : "–", false, stable == false},
-           {word(entry, "reason").empty() ? word(best, "status") : word(entry, "reason")}});
+           {word(entry, key::reason).empty() ? word(best, key::status) : word(entry, key::reason)}});
       first.push_back(rank == 1);
     }
     page.html(table_html({"rank", "run", "objective", "ΔAICc", "χ²/ν", "successes", "per success", "evaluations",
@@ -99,7 +100,7 @@ void add_ranking(Page& page, const Folder& folder, const Order& order) {
 }
 
 void add_provenance(Page& page, const Folder& folder) {
-  const Json& provenance = member(folder.result(), "provenance");
+  const Json& provenance = member(folder.result(), key::provenance);
   if (!provenance.is_object()) return;
   page.section("Provenance");
   std::vector<std::pair<std::string, std::string>> lines;

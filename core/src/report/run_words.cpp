@@ -34,23 +34,24 @@ std::string scored_words(std::vector<Scored> all) {
 /// The fitted rows, and separately the held-out rows.
 std::vector<std::string> fit_words(const Json& best) {
   std::vector<Scored> fitted, held_out;
-  const Json& tests = member(best, "per_test");
+  const Json& tests = member(best, key::per_test);
   for (const auto& [test, fit] : tests.items())
-    for (const Json& channel : list(fit, "channels"))
-      (member(channel, "held_out") == true ? held_out : fitted)
-          .push_back({number(channel, "r2"),
-                      fmt::format("R² {} in {} ({}, RMSE {})", figure(number(channel, "r2")), test,
-                                  word(channel, "channel"), amount(number(channel, "rmse"), word(channel, "unit")))});
+    for (const Json& channel : list(fit, key::channels))
+      (member(channel, key::held_out) == true ? held_out : fitted)
+          .push_back(
+              {number(channel, key::r2),
+               fmt::format("R² {} in {} ({}, RMSE {})", figure(number(channel, key::r2)), test,
+                           word(channel, key::channel), amount(number(channel, key::rmse), word(channel, key::unit)))});
   std::vector<std::string> lines;
   if (!fitted.empty()) lines.push_back((held_out.empty() ? "" : "Fitted: ") + scored_words(std::move(fitted)) + '.');
-  if (const Json& misfit = member(best, "misfit"); misfit.is_object())
+  if (const Json& misfit = member(best, key::misfit); misfit.is_object())
     lines.push_back(fmt::format("χ²/ν {} against the stated noise (χ² {}, {} rows).",
-                                figure(number(misfit, "reduced_chi_square")), figure(number(misfit, "chi_square")),
-                                figure(number(misfit, "rows"))));
-  if (const Json& size = member(best, "misfit_size"); size.is_object()) {
-    std::string text = fmt::format("It {} beyond noise", text::misses_by(number(size, "rms")));
-    if (const double tolerance = number(size, "tolerance"); std::isfinite(tolerance))
-      text += "; " + text::against_tolerance(number(size, "rms"), number(size, "rms_upper"), tolerance, "stated");
+                                figure(number(misfit, key::reduced_chi_square)),
+                                figure(number(misfit, key::chi_square)), figure(number(misfit, key::rows))));
+  if (const Json& size = member(best, key::misfit_size); size.is_object()) {
+    std::string text = fmt::format("It {} beyond noise", text::misses_by(number(size, key::rms)));
+    if (const double tolerance = number(size, key::tolerance); std::isfinite(tolerance))
+      text += "; " + text::against_tolerance(number(size, key::rms), number(size, key::rms_upper), tolerance, "stated");
     lines.push_back(text + '.');
   }
   if (!held_out.empty()) lines.push_back("Held out: " + scored_words(std::move(held_out)) + '.');
@@ -63,8 +64,8 @@ std::string what_was_fitted(const Json& result, const Order& order) {
   for (const auto& run : order.runs()) {
     models.insert(run.model);
     optimizers.insert(run.optimizer);
-    for (const auto& test : words(list(*run.run, "tests"))) tests.insert(test);
-    const double spent = number(*run.run, "evaluations"), searches = number(*run.run, "realisations");
+    for (const auto& test : words(list(*run.run, key::tests))) tests.insert(test);
+    const double spent = number(*run.run, key::evaluations), searches = number(*run.run, key::realisations);
     evaluations += std::isfinite(spent) ? spent : 0;
     realisations += std::isfinite(searches) ? searches : 0;
   }
@@ -77,7 +78,7 @@ std::string what_was_fitted(const Json& result, const Order& order) {
                      text::capitalised(named(models, "model", "models")), named(tests, "test", "tests"),
                      named(optimizers, "optimiser", "optimisers"), count_of(order.runs().size(), "run", "runs"),
                      count_of(static_cast<std::size_t>(realisations), "realisation", "realisations"), evaluations,
-                     figure(number(member(result, "provenance"), "seed")));
+                     figure(number(member(result, key::provenance), key::seed)));
 }
 
 /// What stands against the best run, and what to do about each.
@@ -91,7 +92,7 @@ struct Doubts {
 
 /// A diagnosis fits without constraints, so it does not explain a misfit that only constraints cause.
 std::string diagnosis_advised(const Json& best) {
-  const std::string imposed = word(member(best, "stability"), "imposed");
+  const std::string imposed = word(member(best, key::stability), key::imposed);
   if (imposed.empty()) return "Run tunica diagnose EXPERIMENT.";
   return fmt::format(
       "Fit once without the constraints ({}). What misfit is left then is for tunica diagnose EXPERIMENT "
@@ -103,54 +104,54 @@ std::string diagnosis_advised(const Json& best) {
 void fit_in_doubt(const Json& best, Doubts& doubts) {
   const std::string diagnose = diagnosis_advised(best);
   constexpr double poor = 0.95;
-  const Json &stated = member(best, "misfit"), &estimated = member(best, "misfit_estimated");
+  const Json &stated = member(best, key::misfit), &estimated = member(best, key::misfit_estimated);
   const bool known = stated.is_object();
   const Json& misfit = known ? stated : estimated;
   if (misfit.is_object()) {
-    if (member(misfit, "contradicts_noise") == true)
+    if (member(misfit, key::contradicts_noise) == true)
       doubts.add(fmt::format("the model misses the data by {} times the {} (χ²/ν {})",
-                             figure(number(misfit, "times_the_noise")),
+                             figure(number(misfit, key::times_the_noise)),
                              known ? "noise" : "noise that is estimated from the rows",
-                             figure(number(misfit, "reduced_chi_square"))),
+                             figure(number(misfit, key::reduced_chi_square))),
                  known ? diagnose : diagnose + " State the noise where it is known.");
-    else if (member(misfit, "small_but_real") == true)
+    else if (member(misfit, key::small_but_real) == true)
       doubts.add(
           fmt::format("the model misses the data by a little, and really (χ²/ν {}, chance {}): parameters may be "
                       "off by more than their intervals",
-                      figure(number(misfit, "reduced_chi_square")), figure(number(misfit, "chance"))),
+                      figure(number(misfit, key::reduced_chi_square)), figure(number(misfit, key::chance))),
           diagnose);
     return;
   }
   double worst = 1;
-  const Json& tests = member(best, "per_test");
+  const Json& tests = member(best, key::per_test);
   for (const auto& [test, fit] : tests.items())
-    for (const Json& channel : list(fit, "channels"))
-      if (const double r2 = number(channel, "r2"); member(channel, "held_out") != true && r2 < worst) worst = r2;
+    for (const Json& channel : list(fit, key::channels))
+      if (const double r2 = number(channel, key::r2); member(channel, key::held_out) != true && r2 < worst) worst = r2;
   if (worst < poor)
     doubts.add(fmt::format("R² is only {} in the worst curve", figure(worst)), diagnose + " Or take another model.");
 }
 
 void parameters_in_doubt(const Json& best, Doubts& doubts) {
   std::vector<std::string> bound, natural, loose, one_sided, unreliable, fixed, coarse;
-  for (const auto& [name, estimate] : member(best, "parameters").items()) {
-    const Json& interval = member(estimate, "ci95");
-    if (const double bias = number(estimate, "mesh_bias");
+  for (const auto& [name, estimate] : member(best, key::parameters).items()) {
+    const Json& interval = member(estimate, key::ci95);
+    if (const double bias = number(estimate, key::mesh_bias);
         std::isfinite(bias) && interval.is_array() &&
         std::abs(bias) > (interval[1].get<double>() - interval[0].get<double>()) / 6)
       coarse.push_back(name);
-    if (const std::string kind = word(estimate, "bound_kind"); kind == "symmetry" || kind == "physical")
+    if (const std::string kind = word(estimate, key::bound_kind); kind == "symmetry" || kind == "physical")
       natural.push_back(name);
-    else if (member(estimate, "at_bound").is_string())
+    else if (member(estimate, key::at_bound).is_string())
       bound.push_back(name);
-    else if (const Json& profile = member(estimate, "profile_ci95"); profile.is_array() && profile.size() == 2)
+    else if (const Json& profile = member(estimate, key::profile_ci95); profile.is_array() && profile.size() == 2)
       (profile[0].is_null() && profile[1].is_null()   ? loose
        : profile[0].is_null() || profile[1].is_null() ? one_sided
                                                       : fixed)
           .push_back(name);
-    else if (member(estimate, "ci95").is_null() && !member(best, "intervals_withheld").is_string())
+    else if (member(estimate, key::ci95).is_null() && !member(best, key::intervals_withheld).is_string())
       loose.push_back(name);
-    else if (member(estimate, "ci95_reliable") == false && member(estimate, "ci95").is_array() &&
-             !member(estimate, "bootstrap_ci95").is_array())
+    else if (member(estimate, key::ci95_reliable) == false && member(estimate, key::ci95).is_array() &&
+             !member(estimate, key::bootstrap_ci95).is_array())
       unreliable.push_back(name);
   }
   if (!coarse.empty())
@@ -179,38 +180,38 @@ void parameters_in_doubt(const Json& best, Doubts& doubts) {
 
 /// By its code; a result that is older than the codes has the figures it follows from.
 bool is_no_optimum(const Json& certificate) {
-  if (const Json& verdict = member(certificate, "verdict_code"); verdict.is_string())
+  if (const Json& verdict = member(certificate, key::verdict_code); verdict.is_string())
     return verdict == "not_an_optimum";
   constexpr double success = 1e-3;  // relative
-  const Json& neighbours = member(certificate, "neighbours");
-  const double here = number(member(certificate, "fresh_process"), "objective"),
-               lowest = number(member(neighbours, "lowest"), "objective");
-  return member(neighbours, "better") == true && here - lowest > success * std::abs(here);
+  const Json& neighbours = member(certificate, key::neighbours);
+  const double here = number(member(certificate, key::fresh_process), key::objective),
+               lowest = number(member(neighbours, key::lowest), key::objective);
+  return member(neighbours, key::better) == true && here - lowest > success * std::abs(here);
 }
 
 bool predicts_worse(const Json& best) {
-  const Json& channels = list(best, "hold_out");
+  const Json& channels = list(best, key::hold_out);
   return std::any_of(channels.begin(), channels.end(),
-                     [](const Json& channel) { return word(channel, "verdict") == "worse_than_fitted"; });
+                     [](const Json& channel) { return word(channel, key::verdict) == "worse_than_fitted"; });
 }
 
 /// Of one run, by its warnings: figures of its own do not tell.
 void noise_in_doubt(const Json& result, const std::string& run, Doubts& doubts) {
-  const Json& warnings = list(result, "warning_details");
+  const Json& warnings = list(result, key::warning_details);
   if (std::any_of(warnings.begin(), warnings.end(), [&](const Json& warning) {
-        return word(warning, "kind") == "noise_too_large" && word(warning, "run") == run;
+        return word(warning, key::kind) == "noise_too_large" && word(warning, key::run) == run;
       }))
     doubts.add("the rows scatter far less than the stated noise says", "Correct the noise, or the unit of the data.");
 }
 
 /// The outcome of a run that is not a fit; the sentence names the key that lets the search continue.
 void ending_in_doubt(const Json& result, const std::string& run, Doubts& doubts) {
-  for (const Json& one : list(result, "runs")) {
-    const std::string code = word(one, "ending_code");
-    if (word(one, "run") != run) continue;
+  for (const Json& one : list(result, key::runs)) {
+    const std::string code = word(one, key::ending_code);
+    if (word(one, key::run) != run) continue;
     if (code == "mostly_failed" || code == "not_a_fit" || code == "misses" || code == "not_converged")
-      doubts.add(word(one, "ending"), code == "not_converged" ? "Raise the limit that ended the search."
-                                                              : "Take another model, or other bounds.");
+      doubts.add(word(one, key::ending), code == "not_converged" ? "Raise the limit that ended the search."
+                                                                 : "Take another model, or other bounds.");
   }
 }
 
@@ -221,17 +222,17 @@ Doubts doubts_of(const Json& result, const std::string& run, const Json& best) {
   if (predicts_worse(best))
     doubts.add("the run fits better than it predicts what was held out",
                "Fit more of the tests together, or take a model with fewer parameters.");
-  if (word(best, "status") == "infeasible")
+  if (word(best, key::status) == "infeasible")
     doubts.add("the best point breaks its constraints", "Relax the constraints.");
-  if (member(best, "stable") == false)
+  if (member(best, key::stable) == false)
     doubts.add("the material is unstable within the measured range", "Impose the constraint transverse_stability.");
   ending_in_doubt(result, run, doubts);
-  const Json& certificate = member(best, "certificate");
+  const Json& certificate = member(best, key::certificate);
   if (is_no_optimum(certificate))
     doubts.add("a neighbouring point is better, so this is not an optimum",
                "Give the optimiser more evaluations, or refine with lm.");
-  const Json& agreement = member(certificate, "realisations");
-  const double agree = number(agreement, "agree"), of = number(agreement, "of");
+  const Json& agreement = member(certificate, key::realisations);
+  const double agree = number(agreement, key::agree), of = number(agreement, key::of);
   if (of > 1 && agree < 0.5 * of)
     doubts.add(fmt::format("only {:.0f} of {:.0f} realisations reached the best objective", agree, of),
                "Take more realisations, or a larger budget.");
@@ -248,20 +249,20 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
   for (const std::string& group : groups) {
     const auto first = std::find_if(order.runs().begin(), order.runs().end(),
                                     [&](const auto& run) { return run.group == group && run.rank == 1; });
-    const Json& best = first == order.runs().end() ? member(Json(), "") : member(*first->run, "best");
+    const Json& best = first == order.runs().end() ? entry(Json(), "") : member(*first->run, key::best);
     if (best.is_null()) continue;
     if (groups.size() > 1) page.heading(fmt::format("Best of {}", order.title(group)));
     const auto rivals =
         std::count_if(order.runs().begin(), order.runs().end(), [&](const auto& run) { return run.group == group; });
-    const std::string model = word(*first->run, "model");
+    const std::string model = word(*first->run, key::model);
     const bool layered = model.empty() || model.find('+') != std::string::npos;
-    const Doubts doubts = doubts_of(result, word(*first->run, "run"), best);
+    const Doubts doubts = doubts_of(result, word(*first->run, key::run), best);
     std::vector<std::string> names;
-    for (const auto& entry : member(best, "parameters").items()) names.push_back(entry.key());
+    for (const auto& entry : member(best, key::parameters).items()) names.push_back(entry.key());
     page.word_lists(
         {{"Best run",
           {fmt::format("{}{}, objective {}", first->label, rivals > 1 ? fmt::format(", first of {}", rivals) : "",
-                       figure(number(best, "objective")))}},
+                       figure(number(best, key::objective)))}},
          {"How well", fit_words(best)},
          {"What is wrong",
           {doubts.wrong.empty() ? "Nothing was found."

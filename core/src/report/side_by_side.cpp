@@ -18,33 +18,33 @@ namespace {
 std::vector<std::pair<std::string, std::string>> column_of(const Folder& folder) {
   std::vector<std::pair<std::string, std::string>> lines;
   if (folder.kind() == Folder::Kind::simulation) return {{"kind", "simulation"}};
-  lines.emplace_back("warnings", std::to_string(list(folder.result(), "warnings").size()));
-  const Json& diagnosis = member(folder.result(), "diagnosis");
+  lines.emplace_back("warnings", std::to_string(list(folder.result(), key::warnings).size()));
+  const Json& diagnosis = member(folder.result(), key::diagnosis);
   if (folder.kind() == Folder::Kind::diagnosis) {
     lines.emplace_back("kind", "diagnosis");
-    lines.emplace_back("verdict", word(diagnosis, "verdict"));
+    lines.emplace_back("verdict", word(diagnosis, key::verdict));
     std::vector<std::string> causes;
-    for (const Json& cause : list(diagnosis, "causes")) causes.push_back(word(cause, "id"));
+    for (const Json& cause : list(diagnosis, key::causes)) causes.push_back(word(cause, key::id));
     lines.emplace_back("causes", text::joined(causes));
-    for (const auto& [name, estimate] : member(member(diagnosis, "base"), "parameters").items())
-      lines.emplace_back(text::titled(name, word(estimate, "unit")), figure(number(estimate, "value")));
+    for (const auto& [name, estimate] : member(member(diagnosis, key::base), key::parameters).items())
+      lines.emplace_back(text::titled(name, word(estimate, key::unit)), figure(number(estimate, key::value)));
     return lines;
   }
   lines.emplace_back("kind", "run");
   const Order order(folder.result());
   if (order.runs().empty()) return lines;
   const auto& first = order.runs().front();
-  const Json& best = member(*first.run, "best");
+  const Json& best = member(*first.run, key::best);
   lines.emplace_back("best run", first.label);
   lines.emplace_back("ranked on", first.group);
-  lines.emplace_back("objective", figure(number(best, "objective")));
-  const Json& stable = member(best, "stable");
+  lines.emplace_back("objective", figure(number(best, key::objective)));
+  const Json& stable = member(best, key::stable);
   lines.emplace_back("stable", stable.is_boolean() ? (stable == true ? "yes" : "NO") : "–");
-  for (const auto& [test, fit] : member(best, "per_test").items())
-    for (const Json& channel : list(fit, "channels"))
-      lines.emplace_back(fmt::format("R², {} {}", test, word(channel, "channel")), figure(number(channel, "r2")));
-  for (const auto& [name, estimate] : member(best, "parameters").items())
-    lines.emplace_back(text::titled(name, word(estimate, "unit")), figure(number(estimate, "value")));
+  for (const auto& [test, fit] : member(best, key::per_test).items())
+    for (const Json& channel : list(fit, key::channels))
+      lines.emplace_back(fmt::format("R², {} {}", test, word(channel, key::channel)), figure(number(channel, key::r2)));
+  for (const auto& [name, estimate] : member(best, key::parameters).items())
+    lines.emplace_back(text::titled(name, word(estimate, key::unit)), figure(number(estimate, key::value)));
   return lines;
 }
 

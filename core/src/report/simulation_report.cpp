@@ -17,24 +17,25 @@ namespace {
 /// Of which model at which parameters the curves are; older folders do not say.
 void add_words(Page& page, const Folder& folder) {
   const Json& said = folder.result();
-  if (word(said, "model").empty()) return;
+  if (word(said, key::model).empty()) return;
   page.section("Summary");
-  if (const auto warnings = words(list(said, "warnings")); !warnings.empty())
+  if (const auto warnings = words(list(said, key::warnings)); !warnings.empty())
     page.box("bad", warnings.size() == 1 ? "Warning" : fmt::format("{} warnings", warnings.size()), warnings);
   std::vector<std::string> values;
   // Imperfections of a test at zero are not worth listing.
-  for (const auto& [name, estimate] : member(said, "parameters").items())
-    if (name.find('.') == std::string::npos || number(estimate, "value") != 0)
-      values.push_back(fmt::format("{} = {}", name, amount(number(estimate, "value"), word(estimate, "unit"))));
-  const std::string source = word(said, "source");
-  const double noise = number(said, "noise");
-  page.words(
-      {{"What was simulated", fmt::format("{} in {}", word(said, "model"), text::joined(words(list(said, "tests"))))},
-       {"Parameters", text::joined(values)},
-       {"Where from", source.empty() ? word(said, "origin") : source},
-       {"Noise", noise > 0 ? fmt::format("{:.3g} % of every value, seed {}", 100 * noise, figure(number(said, "seed")))
-                           : "none"},
-       {"What to do next", "Lay it beside a calibration: tunica report DIR THIS_FOLDER -o FILE."}});
+  for (const auto& [name, estimate] : member(said, key::parameters).items())
+    if (name.find('.') == std::string::npos || number(estimate, key::value) != 0)
+      values.push_back(fmt::format("{} = {}", name, amount(number(estimate, key::value), word(estimate, key::unit))));
+  const std::string source = word(said, key::source);
+  const double noise = number(said, key::noise);
+  page.words({{"What was simulated",
+               fmt::format("{} in {}", word(said, key::model), text::joined(words(list(said, key::tests))))},
+              {"Parameters", text::joined(values)},
+              {"Where from", source.empty() ? word(said, key::origin) : source},
+              {"Noise",
+               noise > 0 ? fmt::format("{:.3g} % of every value, seed {}", 100 * noise, figure(number(said, key::seed)))
+                         : "none"},
+              {"What to do next", "Lay it beside a calibration: tunica report DIR THIS_FOLDER -o FILE."}});
 }
 
 /// What a column is drawn over, and which rows are one curve: as the folder says. Older folders do not; their columns
@@ -48,11 +49,11 @@ Over over_of(const Json& record, const Table& table, const std::string& test, co
   std::vector<double> x;
   Over drawn;
   std::vector<std::string> curves;
-  for (const Json& one : list(record, "curves")) {
-    if (word(one, "test") != test || word(one, "column") != column) continue;
-    const std::vector<std::string> prescribed = words(list(one, "prescribed"));
-    if (const auto time = table.find(word(one, "over"));
-        time && std::find(prescribed.begin(), prescribed.end(), word(one, "over")) == prescribed.end()) {
+  for (const Json& one : list(record, key::curves)) {
+    if (word(one, key::test) != test || word(one, key::column) != column) continue;
+    const std::vector<std::string> prescribed = words(list(one, key::prescribed));
+    if (const auto time = table.find(word(one, key::over));
+        time && std::find(prescribed.begin(), prescribed.end(), word(one, key::over)) == prescribed.end()) {
       drawn.column = *time;
       continue;
     }
@@ -65,7 +66,7 @@ Over over_of(const Json& record, const Table& table, const std::string& test, co
         for (std::size_t row = 0; row < table.rows(); ++row) quantity.values.push_back(table.number(row, *k));
       }
     if (quantities.empty()) continue;
-    data::Abscissa chosen = data::abscissa_of(quantities, word(one, "over"));
+    data::Abscissa chosen = data::abscissa_of(quantities, word(one, key::over));
     drawn.column = columns[chosen.column];
     curves = std::move(chosen.curves);
   }
@@ -117,9 +118,9 @@ void add_simulation(Page& page, const Folder& folder) {
     if (!table || file.ends_with("_section.csv")) continue;  // those are drawn with the wall
     const std::string test = file.substr(0, file.size() - 4);
     std::set<std::string> prescribed;
-    for (const Json& one : list(said, "curves"))
-      if (word(one, "test") == test)
-        for (const std::string& name : words(list(one, "prescribed"))) prescribed.insert(name);
+    for (const Json& one : list(said, key::curves))
+      if (word(one, key::test) == test)
+        for (const std::string& name : words(list(one, key::prescribed))) prescribed.insert(name);
     for (std::size_t k = prescribed.empty() ? 1 : 0; k < table->columns().size(); ++k) {
       const std::string& name = table->columns()[k].name;
       if (prescribed.count(name) == 0)

@@ -17,11 +17,11 @@ struct Bounded {
 };
 
 Bounded bounded(const Json& run, const std::string& name) {
-  const Json& estimate = member(member(member(run, "best"), "parameters"), name);
-  if (!estimate.is_object()) return {number(member(member(run, "fixed"), name), "value"), NAN, NAN};
-  Bounded found{number(estimate, "value"), NAN, NAN};
-  for (const char* const key : {"posterior_ci95", "ci95"}) {
-    const Json& ends = member(estimate, key);
+  const Json& estimate = entry(member(member(run, key::best), key::parameters), name);
+  if (!estimate.is_object()) return {number(entry(member(run, key::fixed), name), key::value), NAN, NAN};
+  Bounded found{number(estimate, key::value), NAN, NAN};
+  for (const results::Key kind : {key::posterior_ci95, key::ci95}) {
+    const Json& ends = member(estimate, kind);
     if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number()) continue;
     found.low = ends[0].get<double>();
     found.high = ends[1].get<double>();
@@ -30,14 +30,21 @@ Bounded bounded(const Json& run, const std::string& name) {
   return found;
 }
 
-/// Names of the branches of a model, by which their parameters begin.
-std::vector<std::string> branches_of(const Json& input, const std::string& model) {
+/// What owns both a stiffness `g` and a time `tau`, fitted or held: the branches of a Prony series.
+std::vector<std::string> branches_of(const Json& run) {
+  constexpr std::string_view stiffness = ".g";
+  const std::array<const Json*, 2> places{&member(member(run, key::best), key::parameters), &member(run, key::fixed)};
+  const auto known = [&](const std::string& name) {
+    return std::any_of(places.begin(), places.end(), [&](const Json* place) { return !entry(*place, name).is_null(); });
+  };
   std::vector<std::string> found;
-  for (const Json& mechanism : list(member(member(input, "models"), model), "mechanisms"))
-    if (word(mechanism, "type") == "viscoelasticity") {
-      const std::string as = word(mechanism, "as");
-      found.push_back(as.empty() ? "viscoelasticity" : as);
-    }
+  for (const Json* place : places)
+    if (place->is_object())
+      for (const auto& [name, value] : place->items()) {
+        if (!name.ends_with(stiffness)) continue;
+        const std::string owner = name.substr(0, name.size() - stiffness.size());
+        if (known(owner + ".tau")) found.push_back(owner);
+      }
   return found;
 }
 
@@ -69,14 +76,14 @@ void add_branches(Chart& chart, const Order::Run& run, int style, const std::vec
 }  // namespace
 
 void add_spectra(Page& page, const Folder& folder, const Order& order) {
-  const auto input = folder.document("input.json");
-  if (!input) return;
-  std::vector<std::string> models;
+  std::vector<const Order::Run*> models;  ///< the first run of each model
   for (const auto& run : order.runs())
-    if (std::find(models.begin(), models.end(), run.model) == models.end()) models.push_back(run.model);
+    if (std::none_of(models.begin(), models.end(), [&](const Order::Run* one) { return one->model == run.model; }))
+      models.push_back(&run);
   bool begun = false;
-  for (const std::string& model : models) {
-    const auto branches = branches_of(*input, model);
+  for (const Order::Run* const first : models) {
+    const std::string& model = first->model;
+    const auto branches = branches_of(*first->run);
     if (branches.empty()) continue;
     Chart chart;
     chart.id = "spectrum_" + model;

@@ -188,10 +188,10 @@ void add_stability(Page& page, const Folder& folder, const Order& order) {
   for (std::size_t k = 0; k < order.runs().size(); ++k) {
     const auto& run = order.runs()[k];
     if (!order.shown(k)) continue;
-    const Json& stability = member(member(*run.run, "best"), "stability");
-    std::string said = fmt::format("{}", fmt::join(words(list(stability, "sentences")), "; "));
-    for (const auto& [model, one] : member(stability, "models").items())
-      said += fmt::format("{}: {}. ", model, text::joined(words(list(one, "sentences"))));
+    const Json& stability = member(member(*run.run, key::best), key::stability);
+    std::string said = fmt::format("{}", fmt::join(words(list(stability, key::sentences)), "; "));
+    for (const auto& [model, one] : member(stability, key::models).items())
+      said += fmt::format("{}: {}. ", model, text::joined(words(list(one, key::sentences))));
     if (!said.empty()) lines.emplace_back(run.label, said);
   }
   page.words(lines);
