@@ -46,6 +46,23 @@
 
 namespace tunica {
 
+/// What a file of measurements was made of. `tunica import` chooses its first test and model by it.
+enum class Specimen {
+  other,  ///< none of these
+  strip,  ///< pulled or pressed along one direction
+  sheet,  ///< pulled along two directions
+  tube,   ///< under inner pressure
+  block   ///< sheared between two plates
+};
+
+/// Where the user names no model, `tunica import` proposes this one.
+struct FirstChoice {
+  /// For files of these specimens; of two models for one specimen the first by name is proposed.
+  std::vector<Specimen> specimens;
+  /// Options that the proposal states, as ModelFactory::options declares them.
+  std::vector<std::pair<std::string, Option::Value>> options = {};
+};
+
 /// How the host makes a model, and what it prints about the type before it makes one.
 struct ModelFactory {
   /// Name in experiment files: lower case, with underscores. It must be unique among all models.
@@ -63,11 +80,19 @@ struct ModelFactory {
   /// Whether its option "terms" takes any term of the energy, as `composed` documents them. Discovery writes its
   /// results with the model that has this role.
   bool writes_terms = false;
+  /// Optional: the files that `tunica import` fits with this type.
+  FirstChoice first_choice = {};
 };
 
 /// The same factory with the energy of its cards.
 inline ModelFactory with_card(ModelFactory factory, CardFormula card) {
   factory.card = std::move(card);
+  return factory;
+}
+
+/// The same factory as the first choice for these specimens.
+inline ModelFactory with_first_choice(ModelFactory factory, FirstChoice choice) {
+  factory.first_choice = std::move(choice);
   return factory;
 }
 
@@ -104,6 +129,10 @@ struct TestFactory {
   /// Optional: experiments of this type that a lab could make next. A diagnosis suggests the one that tells its rivals
   /// apart best. It does not suggest types without this function.
   std::function<std::vector<PlannedTest>(const PlanningScope&)> plan = {};
+  /// What it tests: `tunica import` asks for the sizes of such a specimen.
+  Specimen specimen = Specimen::other;
+  /// Whether `tunica import` proposes this type for files of its specimen where the user names no test.
+  bool first_choice = false;
 };
 
 /// How the host makes an optimizer, and what it prints about the type before it makes one.

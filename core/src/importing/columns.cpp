@@ -278,13 +278,13 @@ bool parts_rows(const ColumnGuess& column, std::size_t rows) {
          3 * column.different <= column.filled;
 }
 
-std::string likely_test(const std::vector<ColumnGuess>& columns) {
+Specimen likely_specimen(const std::vector<ColumnGuess>& columns) {
   if (has(columns, "pressure") &&
       (has(columns, "outer_diameter") || has(columns, "inner_diameter") || has(columns, "diameter")))
-    return "thick_wall_pressurisation";
+    return Specimen::tube;
   for (const char* measured : {"force", "stress"})
-    if (has(columns, measured, "circumferential") && has(columns, measured, "axial")) return "biaxial";
-  return "uniaxial";
+    if (has(columns, measured, "circumferential") && has(columns, measured, "axial")) return Specimen::sheet;
+  return Specimen::strip;
 }
 
 }  // namespace tunica::importing

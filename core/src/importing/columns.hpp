@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/csv.hpp"
+#include "tunica/plugin.hpp"
 
 /// Guesses of the columns in a machine's file, from their names, units and values.
 namespace tunica::importing {
@@ -49,8 +50,8 @@ bool counts_cycles(const ColumnGuess& column);
 /// Whether a column of text parts the rows: each of its values stands in three rows or more.
 bool parts_rows(const ColumnGuess& column, std::size_t rows);
 
-/// The type of test whose quantities these are: a tube, a sheet, else a strip.
-std::string likely_test(const std::vector<ColumnGuess>& columns);
+/// What was tested, by its quantities: a tube, a sheet, else a strip.
+Specimen likely_specimen(const std::vector<ColumnGuess>& columns);
 
 /// Whether a unit measures what the base unit does; grams count as a force.
 bool measures(std::string_view unit, std::string_view base);

@@ -31,9 +31,9 @@ std::string without_digits(std::string text) {
 
 class Mapper {
  public:
-  Mapper(const data::Csv& csv, const std::vector<ColumnGuess>& columns, const std::string& type,
-         const TestFactory& factory, const Answers& answers, const Ask& ask)
-      : csv_(csv), columns_(columns), type_(type), factory_(factory), answers_(answers), ask_(ask) {}
+  Mapper(const data::Csv& csv, const std::vector<ColumnGuess>& columns, const TestFactory& factory,
+         const Answers& answers, const Ask& ask)
+      : csv_(csv), columns_(columns), factory_(factory), answers_(answers), ask_(ask) {}
 
   Mapping map() {
     for (const auto& [name, column] : answers_.columns) {
@@ -61,7 +61,7 @@ class Mapper {
     std::vector<std::string> known;
     for (const Observable& observable : factory_.observables) known.push_back(observable.name);
     for (const data::RawName& raw : data::raw_names(factory_.observables)) known.push_back(raw.name);
-    throw InputError(fmt::format("--column {}: a test of type '{}' has no such quantity. {}", name, type_,
+    throw InputError(fmt::format("--column {}: a test of type '{}' has no such quantity. {}", name, factory_.type,
                                  data::suggestion(name, known)));
   }
 
@@ -140,7 +140,7 @@ class Mapper {
       return key(a) < key(b);
     });
     prefer_stated(order);
-    const bool axes = axes_ || type_ == "biaxial";
+    const bool axes = axes_ || factory_.specimen == Specimen::sheet;
     std::vector<std::pair<std::string, std::size_t>> chosen;
     std::set<std::string> taken = given_;
     for (const bool undirected : {false, true})
@@ -150,7 +150,7 @@ class Mapper {
         const std::string name = name_for(column);
         if (name.empty()) continue;
         const Role role = quantity(name)->observable->role;
-        const bool sheet = type_ == "biaxial" && role != Role::time;
+        const bool sheet = factory_.specimen == Specimen::sheet && role != Role::time;
         if (sheet && undirected == has_axis(name)) continue;
         if (!sheet && undirected) continue;
         if (sheet && undirected && axes &&
@@ -190,7 +190,7 @@ class Mapper {
 
   /// A strip with the ways of two axes: that of the force, or it is asked.
   void along_the_force(std::vector<std::pair<std::string, std::size_t>>& chosen) {
-    if (type_ != "uniaxial") return;
+    if (factory_.specimen != Specimen::strip) return;
     std::string load;
     for (const auto& [name, k] : chosen)
       if (quantity(name)->observable->kind == Observable::Kind::stress) load = columns_[k].direction;
@@ -222,7 +222,7 @@ class Mapper {
   /// Two actuators, or several specimens side by side: columns of one name, or of names that differ in a number. Which
   /// of them it is, or whether they have to be added, no file says.
   void among_several(std::vector<std::pair<std::string, std::size_t>>& chosen) {
-    if (type_ == "biaxial") return;
+    if (factory_.specimen == Specimen::sheet) return;
     for (auto& [name, k] : chosen) {
       if (quantity(name)->observable->role == Role::time) continue;
       std::vector<std::string> names;
@@ -277,12 +277,12 @@ class Mapper {
           "{}, line {}: the column '{}' speaks of bending, and no test here bends a beam: a force over its section "
           "would be taken for a tension. Rename the column where the specimen was pulled.",
           csv_.file.string(), csv_.header_line, bent->title));
-    if (const auto sheared = of(shearing); sheared != columns_.end() && type_ != "simple_shear")
+    if (const auto sheared = of(shearing); sheared != columns_.end() && factory_.specimen != Specimen::block)
       throw InputError(fmt::format(
           "{}, line {}: the column '{}' is one of a rheometer, whose stresses and strains are of shear, and not of a "
           "test of type '{}'. Give --test simple_shear where the shear is the same everywhere, and name its columns "
           "with --column.",
-          csv_.file.string(), csv_.header_line, sheared->title, type_));
+          csv_.file.string(), csv_.header_line, sheared->title, factory_.type));
   }
 
   void refuse_gaps() const {
@@ -295,8 +295,7 @@ class Mapper {
                                       : fmt::format(" (text such as '{}')", data::excerpt(column.values.back()))));
     const auto indents = [](const ColumnGuess& column) { return column.kind == indentation; };
     const std::string hint = std::any_of(columns_.begin(), columns_.end(), indents)
-                                 ? " No test here presses a tip into a surface: the load of an indentation follows the "
-                                   "contact, and no stretch."
+                                 ? " A tip that is pressed into a surface is a test of its own, --test indentation."
                                  : "";
     bool channel = false;
     for (const Observable& observable : factory_.observables) {
@@ -305,14 +304,14 @@ class Mapper {
         throw InputError(
             fmt::format("{}, line {}: no column is known to give '{}' of a test of type '{}'. Columns: {}. "
                         "Name one with --column, for example --column '{}=COLUMN', or another --test.{}",
-                        csv_.file.string(), csv_.header_line, observable.name, type_, fmt::join(names, ", "),
+                        csv_.file.string(), csv_.header_line, observable.name, factory_.type, fmt::join(names, ", "),
                         observable.kind == Observable::Kind::stretch ? "displacement" : observable.name, hint));
     }
     if (!channel)
       throw InputError(
           fmt::format("{}, line {}: no column is known to be measured in a test of type '{}'. Columns: {}. Name "
                       "one with --column, for example --column 'force=COLUMN'.",
-                      csv_.file.string(), csv_.header_line, type_, fmt::join(names, ", ")));
+                      csv_.file.string(), csv_.header_line, factory_.type, fmt::join(names, ", ")));
   }
 
   /// What the names say of measures is one thing, and what the user says.
@@ -357,7 +356,6 @@ class Mapper {
 
   const data::Csv& csv_;
   const std::vector<ColumnGuess>& columns_;
-  const std::string& type_;
   const TestFactory& factory_;
   const Answers& answers_;
   const Ask& ask_;
@@ -371,9 +369,9 @@ class Mapper {
 
 }  // namespace
 
-Mapping map_columns(const data::Csv& csv, const std::vector<ColumnGuess>& columns, const std::string& type,
-                    const TestFactory& factory, const Answers& answers, const Ask& ask) {
-  return Mapper(csv, columns, type, factory, answers, ask).map();
+Mapping map_columns(const data::Csv& csv, const std::vector<ColumnGuess>& columns, const TestFactory& factory,
+                    const Answers& answers, const Ask& ask) {
+  return Mapper(csv, columns, factory, answers, ask).map();
 }
 
 }  // namespace tunica::importing

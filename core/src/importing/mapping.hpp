@@ -22,7 +22,7 @@ struct Mapping {
 /// What the answers name goes first and is not guessed again; of several columns of one quantity the likeliest is
 /// taken, and the others are listed. Throws InputError where a quantity that the test needs has no column, and where a
 /// name contradicts an answer.
-Mapping map_columns(const data::Csv& csv, const std::vector<ColumnGuess>& columns, const std::string& type,
-                    const TestFactory& factory, const Answers& answers, const Ask& ask);
+Mapping map_columns(const data::Csv& csv, const std::vector<ColumnGuess>& columns, const TestFactory& factory,
+                    const Answers& answers, const Ask& ask);
 
 }  // namespace tunica::importing

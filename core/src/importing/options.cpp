@@ -13,16 +13,15 @@
 
 namespace tunica::importing {
 
-Json option_value(const TestFactory& factory, const std::string& type, const std::string& key,
-                  const std::string& text) {
+Json option_value(const TestFactory& factory, const std::string& key, const std::string& text) {
   using Kind = Option::Kind;
   const auto option =
       std::find_if(factory.options.begin(), factory.options.end(), [&](const Option& one) { return one.name == key; });
   if (option == factory.options.end()) {
     std::vector<std::string> names;
     for (const Option& one : factory.options) names.push_back(one.name);
-    throw InputError(
-        fmt::format("--set {}: a test of type '{}' has no such option. {}", key, type, data::suggestion(key, names)));
+    throw InputError(fmt::format("--set {}: a test of type '{}' has no such option. {}", key, factory.type,
+                                 data::suggestion(key, names)));
   }
   if (option->kind == Kind::choice || option->kind == Kind::text) return text;
   const auto value = Json::parse(text, nullptr, false);
@@ -65,7 +64,7 @@ void add_tube_options(Json& entry, const TestFactory& factory, const Answers& an
   if (!answers.thickness.empty() && !entry.contains("thickness")) entry["thickness"] = answers.thickness;
   if (!stretch_in_column && !entry.contains("axial_stretch"))
     entry["axial_stretch"] =
-        option_value(factory, entry["type"], "axial_stretch",
+        option_value(factory, "axial_stretch",
                      ask({"Axial stretch that is held; 1 = the unloaded length", "--set axial_stretch=NUMBER", "1.2"}));
   const char* const sizes[] = {"outer_radius", "inner_radius", "thickness"};
   const auto given =

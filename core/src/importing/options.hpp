@@ -11,7 +11,7 @@ namespace tunica::importing {
 
 /// The value of an option of a test as it stands in an experiment file: a number where the option is one. Throws
 /// InputError where the test has no such option, or the text is no such value.
-Json option_value(const TestFactory& factory, const std::string& type, const std::string& key, const std::string& text);
+Json option_value(const TestFactory& factory, const std::string& key, const std::string& text);
 
 /// How the table stands in its file, as far as the answers say it.
 data::TableLayout layout_of(const Answers& answers);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,6 +31,24 @@ const auto& registered(const Known& known, const char* kind, const std::string& 
   throw InputError(fmt::format("--{} {}: there is no such {}. {}", kind, name, kind, data::suggestion(name, names)));
 }
 
+const TestFactory& first_choice(const plugins::Catalogue& catalogue, Specimen specimen) {
+  if (const auto* const entry = catalogue.first_test(specimen)) return entry->factory;
+  throw InputError("no loaded plugin provides a test that is the first choice for these columns. Name one with --test");
+}
+
+/// The block "models": the one that is named, else the first choice for the specimen.
+Json proposed_model(const std::string& named, Specimen specimen, const plugins::Catalogue& catalogue) {
+  const auto* const entry =
+      named.empty() ? catalogue.first_model(specimen) : &registered(catalogue.models(), "model", named);
+  if (entry == nullptr)
+    throw InputError(
+        "no loaded plugin provides a model that is the first choice for these files. Name one with --model");
+  Json model = {{"type", entry->factory.type}};
+  for (const auto& [name, value] : entry->factory.first_choice.options)
+    std::visit([&, &key = name](const auto& one) { model[key] = one; }, value);
+  return {{entry->factory.type, std::move(model)}};
+}
+
 /// One file on its way to tests.
 class File {
  public:
@@ -44,8 +61,8 @@ class File {
         bytes_(data::read_bytes(file)),
         csv_(data::parse_csv(file, bytes_, layout_of(answers))),
         columns_(guess_columns(csv_)),
-        type_(answers.test.empty() ? likely_test(columns_) : answers.test) {
-    factory_ = &registered(catalogue.tests(), "test", type_).factory;
+        factory_(answers.test.empty() ? first_choice(catalogue, likely_specimen(columns_))
+                                      : registered(catalogue.tests(), "test", answers.test).factory) {
     note("{} columns, {} rows; names in line {}, cells parted by {}", csv_.columns.size(), csv_.rows.size(),
          csv_.header_line,
          csv_.delimiter == '\t'  ? "tabs"
@@ -53,7 +70,7 @@ class File {
                                  : fmt::format("'{}'", csv_.delimiter));
   }
 
-  [[nodiscard]] const std::string& type() const { return type_; }
+  [[nodiscard]] Specimen specimen() const { return factory_.specimen; }
 
   /// Name and entry of each test.
   std::vector<std::pair<std::string, Json>> tests(const std::filesystem::path& folder) {
@@ -65,7 +82,7 @@ class File {
     if (!units_.empty()) common["units"] = units_;
     add_layout(common, answers_);
     add_compression(common);
-    const bool sign_known = type_ != "uniaxial" || common.contains("compression") || said_.tension;
+    const bool sign_known = factory_.specimen != Specimen::strip || common.contains("compression") || said_.tension;
     const Json where = conditions();
     std::vector<std::pair<std::string, Json>> found;
     for (const std::string& value : values_of_each()) {
@@ -76,9 +93,9 @@ class File {
       add_cycles(data, own);
       add_measure(data);
       if (const auto question =
-              sign_known ? std::nullopt : question_of_sign(data, csv_, rows(own), factory_->observables))
+              sign_known ? std::nullopt : question_of_sign(data, csv_, rows(own), factory_.observables))
         data["compression"] = ask_(*question);
-      Json entry = {{"type", type_}};
+      Json entry = {{"type", factory_.type}};
       const std::string name = as_name(answers_.each.empty() ? file_.stem().string() : value);
       add_options(entry, name);
       entry["data"] = data;
@@ -97,7 +114,7 @@ class File {
       sign = ask_({"Sign of the values in compression: positive or negative", "--compression SIGN",
                    said_.negative ? "negative" : "positive"});
     if (!sign.empty()) data["compression"] = sign;
-    if (sign.empty() && type_ == "uniaxial")
+    if (sign.empty() && factory_.specimen == Specimen::strip)
       note(
           "tension counts as positive; of a specimen that is pressed, with positive values, say --compression "
           "positive");
@@ -110,7 +127,7 @@ class File {
   }
 
   Json map_columns() {
-    Mapping mapping = importing::map_columns(csv_, columns_, type_, *factory_, answers_, ask_);
+    Mapping mapping = importing::map_columns(csv_, columns_, factory_, answers_, ask_);
     for (const std::string& one : mapping.notes) note("{}", one);
     mapped_ = std::move(mapping.columns);
     units_ = std::move(mapping.units);
@@ -185,7 +202,7 @@ class File {
 
   bool needs(std::initializer_list<From> kinds) const {
     return std::any_of(mapped_.begin(), mapped_.end(), [&](const auto& one) {
-      const From kind = data::quantity_named(one.first, factory_->observables)->kind;
+      const From kind = data::quantity_named(one.first, factory_.observables)->kind;
       return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
     });
   }
@@ -223,7 +240,7 @@ class File {
       const std::string& given = answers_.height.empty() ? answers_.gauge_length : answers_.height;
       const bool known = !given.empty() || !table.gauge_length.empty();
       const auto at_rest = known ? Pairs() : gauges_from_lengths(where);
-      if (type_ == "biaxial" && !at_rest.empty() && !at_rest.front().first.empty())
+      if (factory_.specimen == Specimen::sheet && !at_rest.empty() && !at_rest.front().first.empty())
         for (const auto& [direction, gauge] : at_rest) specimen[direction]["gauge_length"] = gauge;
       else
         size("gauge_length", given,
@@ -242,7 +259,7 @@ class File {
   Pairs gauges_from_lengths(const Json& where) {
     Pairs found;
     for (const auto& [name, column] : mapped_) {
-      const auto quantity = data::quantity_named(name, factory_->observables);
+      const auto quantity = data::quantity_named(name, factory_.observables);
       if (quantity->kind != From::displacement) continue;
       const std::string direction = name.ends_with("circumferential") ? "circumferential"
                                     : name.ends_with("axial")         ? "axial"
@@ -291,7 +308,7 @@ class File {
   template <class Visit>
   void each_abscissa(const Visit& visit) const {
     for (const auto& [name, column] : mapped_) {
-      const auto quantity = data::quantity_named(name, factory_->observables);
+      const auto quantity = data::quantity_named(name, factory_.observables);
       if (quantity->observable->role != Observable::Role::abscissa) continue;
       const bool stretch = quantity->kind == From::own && quantity->observable->kind == Observable::Kind::stretch;
       visit(column, stretch ? 1.0 : 0.0);
@@ -321,7 +338,7 @@ class File {
 
   void add_measure(Json& data) {
     const bool stress = std::any_of(mapped_.begin(), mapped_.end(), [&](const auto& one) {
-      return data::quantity_named(one.first, factory_->observables)->observable->kind == Observable::Kind::stress;
+      return data::quantity_named(one.first, factory_.observables)->observable->kind == Observable::Kind::stress;
     });
     if (!stress) return;
     if (!measure_.empty())
@@ -343,9 +360,9 @@ class File {
   }
 
   void add_options(Json& entry, const std::string& test) {
-    for (const auto& [key, value] : answers_.options) entry[key] = option_value(*factory_, type_, key, value);
+    for (const auto& [key, value] : answers_.options) entry[key] = option_value(factory_, key, value);
     const std::string direction = direction_of(test);
-    for (const Option& option : factory_->options) {
+    for (const Option& option : factory_.options) {
       if (option.name == "direction" && !direction.empty()) entry["direction"] = direction;
       if (option.fallback || entry.contains(option.name)) continue;
       if (option.name == "direction") {
@@ -361,16 +378,18 @@ class File {
       }
     }
     const bool stretched = std::any_of(mapped_.begin(), mapped_.end(), [&](const auto& one) {
-      return data::quantity_named(one.first, factory_->observables)->observable->name == "axial_stretch";
+      return data::quantity_named(one.first, factory_.observables)->observable->name == "axial_stretch";
     });
-    if (type_ == "loading_segments")
+    const auto& options = factory_.options;
+    const bool states_its_loading =
+        std::any_of(options.begin(), options.end(), [](const Option& option) { return option.name == "segments"; });
+    if (states_its_loading)
       for (const ColumnGuess& column : columns_)
         if (column.quantity == "time") {
           add_hold(entry, column.largest, column.unit, ask_);
           break;
         }
-    if (type_ == "thick_wall_pressurisation" || type_ == "fe_pressurisation")
-      add_tube_options(entry, *factory_, answers_, stretched, ask_);
+    if (factory_.specimen == Specimen::tube) add_tube_options(entry, factory_, answers_, stretched, ask_);
   }
 
   std::filesystem::path file_;
@@ -380,8 +399,7 @@ class File {
   std::string bytes_;
   data::Csv csv_;
   std::vector<ColumnGuess> columns_;
-  std::string type_;
-  const TestFactory* factory_ = nullptr;
+  const TestFactory& factory_;
   Pairs mapped_;
   Json units_ = Json::object();
   std::string cycle_column_, measure_;
@@ -391,20 +409,15 @@ class File {
 
 }  // namespace
 
-std::string test_of_joined_files() { return "biaxial"; }
-
 Proposal propose(const Answers& answers, const std::filesystem::path& folder, const plugins::Catalogue& catalogue,
                  const Ask& ask) {
   Proposal proposal;
   Json tests = Json::object(), runs = Json::array();
-  std::string model = answers.model;
+  Json models;
   for (const std::filesystem::path& file : answers.files) {
     File reading(file, answers, catalogue, ask, proposal.notes);
-    if (model.empty())
-      model = std::set<std::string>{"uniaxial", "biaxial", "creep", "loading_segments"}.contains(reading.type())
-                  ? "ogden"
-                  : "hgo";
-    std::vector<std::string> names;
+    if (models.empty()) models = proposed_model(answers.model, reading.specimen(), catalogue);
+    Json names = Json::array();
     for (auto& [name, entry] : reading.tests(folder)) {
       if (tests.contains(name))
         throw InputError(fmt::format("{}: two tests would be called '{}'. Rename a file, or import it by itself.",
@@ -412,15 +425,22 @@ Proposal propose(const Answers& answers, const std::filesystem::path& folder, co
       names.push_back(name);
       tests[name] = std::move(entry);
     }
-    runs.push_back({{"model", model}, {"optimizer", "lm"}, {"tests", std::move(names)}});
+    if (answers.together && !runs.empty())
+      runs.front()["tests"].insert(runs.front()["tests"].end(), names.begin(), names.end());
+    else
+      runs.push_back({{"model", models.begin().key()}, {"optimizer", "lm"}, {"tests", std::move(names)}});
   }
-  static_cast<void>(registered(catalogue.models(), "model", model));
-  Json entry = {{"type", model}};
-  if (model == "ogden") entry["terms"] = 2;  // on strips of porcine dermis one term leaves 4 to 17 times the misfit
+  if (runs.size() > 1)
+    proposal.notes.push_back(
+        "each file gets a fit of its own, as of another specimen; of one specimen say --together, and one fit meets "
+        "all");
+  const auto* const refiner = catalogue.refiner();
+  if (refiner == nullptr)
+    throw InputError("no loaded plugin provides an optimizer that refines a fit. Give --plugin-path a folder with one");
   proposal.experiment = {{"format", 1}};
-  proposal.experiment["models"][model] = std::move(entry);
+  proposal.experiment["models"] = std::move(models);
   proposal.experiment["tests"] = std::move(tests);
-  proposal.experiment["optimizers"]["lm"] = {{"type", "ceres_lm"}, {"starts", 20}};
+  proposal.experiment["optimizers"]["lm"] = {{"type", refiner->factory.type}, {"starts", 20}};
   proposal.experiment["runs"] = std::move(runs);
   return proposal;
 }

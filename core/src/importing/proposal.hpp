@@ -34,6 +34,7 @@ struct Answers {
   std::string compression;                           ///< "positive" or "negative", of all columns
   Pairs compressions;                                ///< column → "positive" or "negative"
   std::string delimiter, decimal, skip_lines, rows;  ///< as in "data"
+  bool together = false;                             ///< the files are tests of one specimen
 };
 
 /// Something that no file says. `option` is what gives it on the command line.
@@ -52,9 +53,6 @@ struct Proposal {
   Json experiment;
   std::vector<std::string> notes;  ///< what was understood, in sentences
 };
-
-/// The type of test that two files of a sheet make, one along each axis.
-std::string test_of_joined_files();
 
 /// Reads the files, and proposes a test (with its data block) for each, a model and a run for each. Relative names in
 /// it begin at `folder`. Throws InputError on a file that is no table, and on columns that make no test.

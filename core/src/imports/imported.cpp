@@ -158,11 +158,12 @@ std::filesystem::path joined_of(const ImportRequest& request, const std::filesys
 }
 
 /// The two files of a sheet become one beside the experiment.
-void join_files(ImportRequest& request, const std::filesystem::path& joined) {
+void join_files(ImportRequest& request, const std::filesystem::path& joined, const plugins::Catalogue& catalogue) {
   execution::write_atomically(joined, importing::joined_table(request.answers));
   request.answers.files = {joined};
   request.answers.delimiter = request.answers.decimal = request.answers.skip_lines = "";
-  if (request.answers.test.empty()) request.answers.test = importing::test_of_joined_files();
+  const auto* const sheet = catalogue.first_test(Specimen::sheet);
+  if (request.answers.test.empty() && sheet != nullptr) request.answers.test = sheet->factory.type;
 }
 
 void check_sizes(ImportRequest& request, std::vector<std::string>& warnings) {
@@ -201,7 +202,7 @@ Imported import_files(ImportRequest request, const plugins::Catalogue& catalogue
   const std::filesystem::path joined = joined_of(request, imported.file);
   if (making) making({imported.file, joined});
   const TakenBack experiment_file{imported.file}, table_of_both{joined};
-  if (!joined.empty()) join_files(request, joined);
+  if (!joined.empty()) join_files(request, joined, catalogue);
   std::vector<Question> unanswered;
   const importing::Ask asked = [&](const Question& question) {
     if (ask) return ask(question);

@@ -146,4 +146,15 @@ const Catalogue::Entry<OptimizerFactory>* Catalogue::refiner() const {
   return first_with(optimizers_, [](const OptimizerFactory& optimizer) { return optimizer.refines; });
 }
 
+const Catalogue::Entry<TestFactory>* Catalogue::first_test(Specimen specimen) const {
+  return first_with(tests_, [&](const TestFactory& test) { return test.first_choice && test.specimen == specimen; });
+}
+
+const Catalogue::Entry<ModelFactory>* Catalogue::first_model(Specimen specimen) const {
+  return first_with(models_, [&](const ModelFactory& model) {
+    const auto& claimed = model.first_choice.specimens;
+    return std::find(claimed.begin(), claimed.end(), specimen) != claimed.end();
+  });
+}
+
 }  // namespace tunica::plugins

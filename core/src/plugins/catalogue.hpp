@@ -32,6 +32,10 @@ class Catalogue {
   [[nodiscard]] const Entry<MechanismFactory>* term_mechanism() const;
   /// The optimizer that refines a fit, OptimizerFactory::refines.
   [[nodiscard]] const Entry<OptimizerFactory>* refiner() const;
+  /// The test and the model that `import` proposes for files of a specimen, TestFactory::first_choice and
+  /// ModelFactory::first_choice.
+  [[nodiscard]] const Entry<TestFactory>* first_test(Specimen specimen) const;
+  [[nodiscard]] const Entry<ModelFactory>* first_model(Specimen specimen) const;
 
   /// Takes over what one plugin has registered, all or nothing; throws std::invalid_argument on a name that is
   /// taken (by which plugin is in the message) or not a plain identifier, and on a default outside its own bounds. A

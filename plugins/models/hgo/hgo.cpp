@@ -23,10 +23,11 @@ CardEnergy card(const Options& options, std::span<const double> p) {
 }  // namespace
 
 TUNICA_PLUGIN("hgo", TUNICA_PLUGIN_VERSION) {
-  registry.add(
+  registry.add(with_first_choice(
       with_card(hyperelastic_factory(
                     {.type = "hgo", .parameters = {arterial::mu(), arterial::k1(), arterial::k2(), arterial::theta()}},
                     "Two aligned fibre families in a neo-Hookean matrix (Holzapfel–Gasser–Ogden).",
                     "Holzapfel, Gasser, Ogden, J. Elasticity 61:1 (2000)", parts, {arterial::fibre_switch()}),
-                card));
+                card),
+      {{Specimen::tube}}));
 }

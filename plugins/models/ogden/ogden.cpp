@@ -45,11 +45,16 @@ CardEnergy card(const Options&, std::span<const double> p) {
 }  // namespace
 
 TUNICA_PLUGIN("ogden", TUNICA_PLUGIN_VERSION) {
-  registry.add(ModelFactory{
-      "ogden",
-      "Incompressible rubber, powers of the principal stretches: W = sum of mu/alpha (sum of lambda^alpha - 3).",
-      "Ogden, Proc. R. Soc. A 326:565 (1972)",
-      {Option::integer("terms", 3, {1, most_terms}, "Number of terms; each has its own mu and alpha.")},
-      create_with,
-      card});
+  // One term leaves 4 to 17 times the misfit of two on strips of porcine dermis.
+  const FirstChoice choice{{Specimen::other, Specimen::strip, Specimen::sheet, Specimen::block},
+                           {{"terms", std::int64_t{2}}}};
+  registry.add(with_first_choice(
+      ModelFactory{
+          "ogden",
+          "Incompressible rubber, powers of the principal stretches: W = sum of mu/alpha (sum of lambda^alpha - 3).",
+          "Ogden, Proc. R. Soc. A 326:565 (1972)",
+          {Option::integer("terms", 3, {1, most_terms}, "Number of terms; each has its own mu and alpha.")},
+          create_with,
+          card},
+      choice));
 }

@@ -213,7 +213,7 @@ std::vector<PlannedTest> plan(const PlanningScope& scope) {
 }
 
 TestFactory factory() {
-  return {
+  TestFactory made{
       "biaxial",
       "A thin sheet stretched along the circumferential and the axial direction, its faces free.",
       "Holzapfel & Ogden, Math. Mech. Solids 14:474 (2009)",
@@ -242,6 +242,9 @@ TestFactory factory() {
       false,
       {},
       plan};
+  made.specimen = Specimen::sheet;
+  made.first_choice = true;
+  return made;
 }
 
 }  // namespace

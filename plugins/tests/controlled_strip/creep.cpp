@@ -79,13 +79,15 @@ TestFactory creep_factory() {
   std::vector<Option> options{
       direction_option(), Option::integer("steps", 1, {1, 1000}, "Steps of the simulation from one row to the next.")};
   add_common_options(options);
-  return {"creep",
-          "A strip under a prescribed stress or force, lateral faces free: creep, recovery, cycles of load.",
-          "Findley, Lai, Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials (1976)",
-          std::move(options),
-          std::move(observables),
-          [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Creep>(setup); },
-          all_parameters()};
+  TestFactory made{"creep",
+                   "A strip under a prescribed stress or force, lateral faces free: creep, recovery, cycles of load.",
+                   "Findley, Lai, Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials (1976)",
+                   std::move(options),
+                   std::move(observables),
+                   [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Creep>(setup); },
+                   all_parameters()};
+  made.specimen = Specimen::strip;
+  return made;
 }
 
 }  // namespace tunica::controlled_strip

@@ -111,14 +111,17 @@ TestFactory loading_segments_factory() {
       Option::quantity("gauge_length", "mm", 0, "Unloaded length; segments of displacement need it.", 0.0),
       Option::quantity("area", "mm2", 0, "Unloaded section; segments of force need it.", 0.0)};
   add_common_options(options);
-  return {"loading_segments",
-          "A strip whose loading is stated in segments by stretch, displacement, stress or force: relaxation, creep, "
-          "recovery.",
-          "Findley, Lai, Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials (1976)",
-          std::move(options),
-          std::move(observables),
-          [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<LoadingSegments>(setup); },
-          all_parameters()};
+  TestFactory made{
+      "loading_segments",
+      "A strip whose loading is stated in segments by stretch, displacement, stress or force: relaxation, creep, "
+      "recovery.",
+      "Findley, Lai, Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials (1976)",
+      std::move(options),
+      std::move(observables),
+      [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<LoadingSegments>(setup); },
+      all_parameters()};
+  made.specimen = Specimen::strip;
+  return made;
 }
 
 }  // namespace tunica::controlled_strip

@@ -288,7 +288,7 @@ std::optional<StandIn> long_tube(const Options& given) {
 }
 
 TestFactory factory() {
-  return {
+  TestFactory made{
       "fe_pressurisation",
       "A tube of finite length under inner pressure, stretched and held at its ends, by axisymmetric mixed finite "
       "elements.",
@@ -300,6 +300,8 @@ TestFactory factory() {
       thick_wall::own_parameters(false),
       true,
       long_tube};
+  made.specimen = Specimen::tube;
+  return made;
 }
 
 }  // namespace

@@ -92,4 +92,8 @@ struct SimpleShear {
 
 }  // namespace
 
-TUNICA_PLUGIN("simple_shear", TUNICA_PLUGIN_VERSION) { registry.add(tunica::point_test_factory<SimpleShear>()); }
+TUNICA_PLUGIN("simple_shear", TUNICA_PLUGIN_VERSION) {
+  auto factory = tunica::point_test_factory<SimpleShear>();
+  factory.specimen = tunica::Specimen::block;
+  registry.add(std::move(factory));
+}

@@ -112,7 +112,7 @@ std::vector<PlannedTest> plan(const PlanningScope& scope) {
 }
 
 TestFactory factory() {
-  return {
+  TestFactory made{
       "thick_wall_pressurisation",
       "A long tube under inner pressure at prescribed axial stretch, its thick wall integrated semi-analytically.",
       "Holzapfel, Gasser, Ogden, J. Elasticity 61:1 (2000), section 3",
@@ -123,6 +123,9 @@ TestFactory factory() {
       true,
       {},
       plan};
+  made.specimen = Specimen::tube;
+  made.first_choice = true;
+  return made;
 }
 
 }  // namespace

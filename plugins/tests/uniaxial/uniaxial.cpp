@@ -216,7 +216,7 @@ std::vector<PlannedTest> plan(const PlanningScope& scope) {
 }
 
 TestFactory factory() {
-  return {
+  TestFactory made{
       "uniaxial",
       "A strip pulled along a direction of the material, lateral faces free.",
       "Holzapfel & Ogden, J. R. Soc. Interface 7:787 (2010)",
@@ -246,6 +246,9 @@ TestFactory factory() {
       false,
       {},
       plan};
+  made.specimen = Specimen::strip;
+  made.first_choice = true;
+  return made;
 }
 
 }  // namespace
