@@ -205,6 +205,27 @@ TEST(Cards, TakeTheVolumeOfAMechanismAndRefuseOthers) {
               HasSubstr("the mechanism 'second_invariant' changes the model 'neo_hooke', and no card has it"));
 }
 
+// Both programs define η = 1 − 1/r erf((Wmax − W)/(m + β Wmax)): Abaqus, "Mullins effect"; Ansys, "TB,CDM", PSE2.
+TEST(Cards, TakeTheSofteningOfAMechanism) {
+  const std::vector<cards::Ingredient> softening{{"stress_softening", {}}};
+  const auto softened = [&](const char* model, std::vector<double> values) {
+    const auto& known = tunica::testing::catalogue().models().at(model).factory;
+    return cards::material_of(tunica::testing::catalogue(), {model, tunica::testing::defaults(known.options)},
+                              softening, values);
+  };
+  const cards::Material yeoh = softened("yeoh", {418, -33.6, 5.74, 0.5, 0.394});
+  cards::CardSettings settings;
+  settings.name = "rubber";
+  EXPECT_THAT(cards::write_card(Target::abaqus, yeoh, settings), EndsWith("*MULLINS EFFECT\n2, 0, 0.394\n"));
+  EXPECT_THAT(cards::write_card(Target::ansys, yeoh, settings), EndsWith("TB,CDM,1,1,3,PSE2\nTBDATA,1, 2, 0, 0.394\n"));
+  EXPECT_THAT(refusal([&] { (void)cards::write_card(Target::calculix, yeoh, settings); }),
+              AllOf(HasSubstr("no softening of Ogden and Roxburgh"), HasSubstr("export for Abaqus or Ansys")));
+  EXPECT_THAT(refusal([&] { (void)softened("yeoh", {418, -33.6, 5.74, 1, 0.394}); }), HasSubstr("found s = 1"));
+  const cards::Material fibres = softened("hgo", {10, 5, 1, 40, 0.5, 0.394});
+  EXPECT_THAT(refusal([&] { (void)cards::write_card(Target::abaqus, fibres, settings); }),
+              HasSubstr("for isotropic energies only"));
+}
+
 TEST(Units, OfCardsAreConsistent) {
   EXPECT_DOUBLE_EQ(cards::unit_system("mm-N-MPa").stress_per_kPa, 1e-3);
   EXPECT_DOUBLE_EQ(cards::unit_system("m-N-Pa").stress_per_kPa, 1e3);

@@ -106,4 +106,12 @@ struct CardVolume {
   double bulk_modulus;
 };
 
+/// The softening that a mechanism adds to a card, of Ogden and Roxburgh (1999): below its largest value Wmax so far, an
+/// energy W gives the stress η ∂W/∂F with η = 1 − 1/r erf((Wmax − W)/(m + β Wmax)).
+struct CardSoftening {
+  double r;     ///< above 1: at most 1/r of the stress is lost
+  double m;     ///< kPa
+  double beta;  ///< of no unit; m and beta are not both 0
+};
+
 }  // namespace tunica

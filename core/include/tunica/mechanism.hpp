@@ -139,6 +139,9 @@ struct MechanismFactory {
   /// Optional, for a mechanism of models that finite-element programs offer as an energy of the volume: this energy at
   /// given values of its parameters. Throws InputError if no program has it with these options.
   std::function<CardVolume(const Options&, std::span<const double>)> card_volume = {};
+  /// Optional, for a mechanism of models that finite-element programs offer as softening: its constants at given values
+  /// of its parameters. Throws InputError if no program has it with these values.
+  std::function<CardSoftening(const Options&, std::span<const double>)> card_softening = {};
 
   /// The parameters of an object with these options.
   [[nodiscard]] std::vector<Parameter> parameters_with(const Options& with) const {

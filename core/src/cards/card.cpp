@@ -122,6 +122,21 @@ std::string card_of(Target target, const Draft& draft) {
   return "";
 }
 
+/// The lines behind the card of the energy: *MULLINS EFFECT of Abaqus, TB,CDM of Ansys (Material Reference, "Mullins
+/// Effect"). Both take r, m in units of stress, and β.
+std::string softening_lines(Target target, const Draft& draft) {
+  if (!draft.material.softening) return "";
+  const bool isotropic = !has_fibres(draft.material);
+  if ((target != Target::abaqus && target != Target::ansys) || !isotropic)
+    throw CannotExpress{
+        isotropic ? "it has no softening of Ogden and Roxburgh" : "its softening is for isotropic energies only",
+        "fit the loading that the part will see, without the mechanism that softens"};
+  const auto [r, m, beta] = *draft.material.softening;
+  const std::string constants = fmt::format("{}, {}, {}", number(r), number(draft.stress * m), number(beta));
+  return target == Target::abaqus ? "*MULLINS EFFECT\n" + constants + '\n'
+                                  : "TB,CDM,1,1,3,PSE2\nTBDATA,1, " + constants + '\n';
+}
+
 /// Whether the program has the model, whatever the settings. Units and bulk modulus here suit every program.
 bool can_express(Target target, const Material& material, bool subroutine) {
   const CardSettings settings{.density = 1000, .subroutine = subroutine};
@@ -129,6 +144,7 @@ bool can_express(Target target, const Material& material, bool subroutine) {
   try {
     draft.bulk = draft.stress * bulk_of(target, material, settings);
     (void)card_of(target, draft);
+    (void)softening_lines(target, draft);
   } catch (const CannotExpress&) {
     return false;
   } catch (const InputError&) {
@@ -209,7 +225,7 @@ std::string write_card(Target target, const Material& material, const CardSettin
                                  paragraph_on_volume(draft)});
   std::string card;
   try {
-    card = card_of(target, draft);
+    card = card_of(target, draft) + softening_lines(target, draft);
   } catch (const CannotExpress& refusal) {
     refuse(target, material, refusal);
   }

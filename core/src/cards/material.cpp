@@ -93,15 +93,19 @@ Material material_of(const plugins::Catalogue& catalogue, const Ingredient& mode
   for (std::size_t k = 0; k < mechanisms.size(); ++k) {
     const auto& entry = catalogue.mechanisms().find(mechanisms[k].type)->second;
     const MechanismFactory& mechanism = entry.factory;
-    if (!mechanism.card_volume || k > 0)
+    const bool known = mechanism.card_volume || mechanism.card_softening;
+    if (!known || k > 0)
       throw InputError(
           fmt::format("the mechanism '{}' changes the model '{}', and no card has it{}. Fit a model that contains it, "
                       "or write the lines by hand: result.json has all parameters, and docs/export.md tells how for "
                       "laws that a program has itself",
-                      mechanism.id, model.type, mechanism.card_volume ? " beside another one" : ""));
+                      mechanism.id, model.type, known ? " beside another one" : ""));
     const std::size_t own = mechanism.parameters_with(mechanisms[k].options).size();
-    material.volume = plugins::guarded(entry.plugin, "card_volume",
-                                       [&] { return mechanism.card_volume(mechanisms[k].options, values.last(own)); });
+    const auto part = [&](const char* name, const auto& formula) {
+      return plugins::guarded(entry.plugin, name, [&] { return formula(mechanisms[k].options, values.last(own)); });
+    };
+    if (mechanism.card_volume) material.volume = part("card_volume", mechanism.card_volume);
+    if (mechanism.card_softening) material.softening = part("card_softening", mechanism.card_softening);
     values = values.first(values.size() - own);
   }
   material.energy =

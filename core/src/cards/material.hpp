@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@ struct Material {
   std::string type = {};                 ///< of the model: "yeoh"
   CardEnergy energy = {};                ///< moduli in kPa
   CardVolume volume = {"quadratic", 0};  ///< fitted; 0 = the fit is incompressible
+  std::optional<CardSoftening> softening = {};
 };
 
 /// A model of an experiment, or a mechanism of it, by its type in the catalogue.

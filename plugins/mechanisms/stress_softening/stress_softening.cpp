@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -107,6 +108,13 @@ MechanismFactory factory() {
       .scan = {{{"m", 0.1}}, {{"m", 0.5}}, {{"m", 2}}}};
   mechanism.wrap_model = [](std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
     return std::make_unique<SoftenedModel>(std::move(base));
+  };
+  // η = 1 − s erf((Wmax − W)/(m Wmax)): r = 1/s, and the width has no part of its own
+  mechanism.card_softening = [](const Options&, std::span<const double> p) -> CardSoftening {
+    if (!(p[0] > 0 && p[0] < 1))
+      throw InputError("stress_softening: found s = " + std::to_string(p[0]) +
+                       ", and cards need one between 0 and 1; fit without the mechanism where nothing softens");
+    return {1 / p[0], 0, p[1]};
   };
   return mechanism;
 }
