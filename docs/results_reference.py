@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""results_reference.py [--check] [--root FOLDER]: writes docs/results-reference.md and the types of the Python package,
-apps/python/tunica/result_types.py, from the schemas of the documents that tunica writes.
+"""results_reference.py [--check] [--root FOLDER]: writes docs/results-reference.md, the types of the Python package
+(apps/python/tunica/result_types.py) and the keys that readers in C++ use (core/src/results/keys.hpp), from the schemas
+of the documents that tunica writes.
 
 --check writes nothing, and ends with 1 where a file is not what the schemas say. A field has a description; its numbers
 have a unit, `x-unit`, which is "unit" where the key beside it says it. A code list is a `oneOf` of constants with a
@@ -17,20 +18,10 @@ import textwrap
 
 RESULT, COHORT, ANSWERS = (f"tunica-{one}.schema.json" for one in ("result", "cohort-result", "answers"))
 PREFIX = {RESULT: "", COHORT: "cohort_", ANSWERS: ""}  # of the names in page and types
-# Heading, schema, name; the root of a schema has the name that is given here.
-DOCUMENTS = [
-    ("result.json of run, diagnose and discover", RESULT, "result"),
-    ("result.json of cohort", COHORT, "result"),
-    ("check --json", ANSWERS, "check"),
-    ("list --json", ANSWERS, "list"),
-    ("describe --json", ANSWERS, "description"),
-    ("stability --json", ANSWERS, "stability_answer"),
-    ("simulation.json of simulate", ANSWERS, "simulation"),
-    ("certify", ANSWERS, "certificates"),
-    ("plugin check --json", ANSWERS, "plugin_check"),
-    ("cohort status --json", ANSWERS, "cohort_status"),
-]
 PAGE, TYPES = "docs/results-reference.md", "apps/python/tunica/result_types.py"
+KEYS = "core/src/results/keys.hpp"
+CPP_KEYWORDS = {"auto", "class", "default", "double", "explicit", "export", "float", "for", "if", "int", "namespace", "new",
+                "operator", "private", "public", "register", "signed", "static", "template", "union", "unsigned"}
 INTRODUCTION = """# Reference of results
 
 Every document that tunica writes for programs, field by field. [Results](results.md) says what they mean together.
@@ -51,6 +42,12 @@ class Schemas:
 
     def __init__(self, folder):
         self.files = {name: json.loads((folder / name).read_text(encoding="utf-8")) for name in PREFIX}
+
+    def documents(self):
+        """(heading, schema, name) of each document: the roots, and definitions with `x-document`. A root is "result"."""
+        answers = self.files[ANSWERS]["definitions"].items()
+        return [("result.json of run, diagnose and discover", RESULT, "result"), ("result.json of cohort", COHORT, "result"),
+                *((one["x-document"], ANSWERS, name) for name, one in answers if "x-document" in one)]
 
     def at(self, file, name):
         """A definition by its name; the root is "result"."""
@@ -188,7 +185,7 @@ def cell(text):
 
 def page(schemas):
     writer, lines, printed = Writer(schemas), [INTRODUCTION], set()
-    for heading, file, name in DOCUMENTS:
+    for heading, file, name in schemas.documents():
         writer.meet(file, name, schemas.at(file, name))
         lines += [f"\n## {heading}", f"[{file}](../schemas/{file})"]
         for called, (own, _, part) in writer.objects.items():
@@ -215,7 +212,7 @@ def wrapped(first, text, begin):
 
 def types(schemas):
     writer = Writer(schemas)
-    for _, file, name in DOCUMENTS:
+    for _, file, name in schemas.documents():
         writer.meet(file, name, schemas.at(file, name))
     lines = ["# SPDX-License-Identifier: Apache-2.0",
              "# Written by docs/results_reference.py from schemas/. Do not edit it by hand.",
@@ -251,13 +248,25 @@ def types(schemas):
     return "\n".join(lines) + "\n"
 
 
+def constants(schemas):
+    """A constant for each key of the documents; a keyword of C++ gets an underscore."""
+    writer = Writer(schemas)
+    for _, file, name in schemas.documents():
+        writer.meet(file, name, schemas.at(file, name))
+    keys = sorted({key for _, _, part in writer.objects.values() for key in part["properties"] if key.isidentifier()})
+    lines = [f'inline constexpr Key {key}{"_" if key in CPP_KEYWORDS else ""}{{"{key}"}};' for key in keys]
+    return "\n".join(["// SPDX-License-Identifier: Apache-2.0", "// Written by docs/results_reference.py from schemas/.", "#pragma once",
+                      "", '#include "results/reading.hpp"', "", "/// The keys of the documents, as the schemas declare them.",
+                      "namespace tunica::results::key {", "", *lines, "", "}  // namespace tunica::results::key", ""])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
     chosen = parser.parse_args()
     schemas, stale = Schemas(chosen.root / "schemas"), []
-    for name, text in ((PAGE, page(schemas)), (TYPES, types(schemas))):
+    for name, text in ((PAGE, page(schemas)), (TYPES, types(schemas)), (KEYS, constants(schemas))):
         file = chosen.root / name
         if not chosen.check:
             file.write_text(text, encoding="utf-8")

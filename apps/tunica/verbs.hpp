@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <functional>
@@ -28,27 +29,22 @@ inline CLI::Validator seed_number() {
           ""};
 }
 
-/// Adds the verbs of this program: all of them (all_verbs.cpp), or those that a first result needs (first_verbs.cpp).
-void add_verbs(CLI::App& app, GlobalOptions& global, Action& action);
+/// Adds a verb to the command line.
+using AddVerb = void(CLI::App& app, GlobalOptions& global, Action& action);
 
-void add_run(CLI::App& app, GlobalOptions& global, Action& action);
-void add_cohort(CLI::App& app, GlobalOptions& global, Action& action);
-void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action);
-void add_discover(CLI::App& app, GlobalOptions& global, Action& action);
-void add_report(CLI::App& app, GlobalOptions& global, Action& action);
-void add_export(CLI::App& app, GlobalOptions& global, Action& action);
-void add_certify(CLI::App& app, GlobalOptions& global, Action& action);
-void add_import(CLI::App& app, GlobalOptions& global, Action& action);
-void add_check(CLI::App& app, GlobalOptions& global, Action& action);
-void add_simulate(CLI::App& app, GlobalOptions& global, Action& action);
-void add_serve(CLI::App& app, GlobalOptions& global, Action& action);
-void add_studio(CLI::App& app, GlobalOptions& global, Action& action);
-void add_stability(CLI::App& app, GlobalOptions& global, Action& action);
-void add_list(CLI::App& app, GlobalOptions& global, Action& action);
-void add_describe(CLI::App& app, GlobalOptions& global, Action& action);
-void add_schema(CLI::App& app, GlobalOptions& global, Action& action);
-void add_plugin(CLI::App& app, GlobalOptions& global, Action& action);
-void add_completion(CLI::App& app, GlobalOptions& global, Action& action);
-void add_man(CLI::App& app, GlobalOptions& global, Action& action);
+AddVerb add_run, add_cohort, add_diagnose, add_discover, add_report, add_export, add_certify, add_import, add_check,
+    add_simulate, add_stability, add_list, add_describe, add_schema, add_plugin, add_completion, add_man,
+    add_serve, add_studio;
+
+/// The verbs that a first result needs, in the order of the help.
+inline constexpr std::array first_verbs{add_run,      add_diagnose,  add_report, add_certify,  add_check,
+                                        add_simulate, add_stability, add_list,   add_describe, add_schema};
+/// All verbs but those that need the library of HTTP.
+inline constexpr std::array all_verbs{
+    add_run,  add_diagnose, add_discover,  add_cohort, add_report,   add_export, add_certify, add_import,     add_check,
+    add_simulate, add_stability, add_list,   add_describe, add_schema, add_plugin,  add_completion, add_man};
+
+/// Adds the verbs of this program: `all_verbs`, or `first_verbs`.
+AddVerb add_verbs;
 
 }  // namespace tunica::app
