@@ -33,7 +33,7 @@ inline CLI::Validator seed_number() {
 using AddVerb = void(CLI::App& app, GlobalOptions& global, Action& action);
 
 AddVerb add_run, add_cohort, add_diagnose, add_discover, add_report, add_export, add_certify, add_import, add_check,
-    add_simulate, add_stability, add_list, add_describe, add_schema, add_plugin, add_completion, add_man,
+    add_data, add_simulate, add_stability, add_list, add_describe, add_schema, add_plugin, add_completion, add_man,
     add_serve, add_studio;
 
 /// The verbs that a first result needs, in the order of the help.
@@ -42,7 +42,7 @@ inline constexpr std::array first_verbs{add_run,      add_diagnose,  add_report,
 /// All verbs but those that need the library of HTTP.
 inline constexpr std::array all_verbs{
     add_run,  add_diagnose, add_discover,  add_cohort, add_report,   add_export, add_certify, add_import,     add_check,
-    add_simulate, add_stability, add_list,   add_describe, add_schema, add_plugin,  add_completion, add_man};
+    add_data, add_simulate, add_stability, add_list,   add_describe, add_schema, add_plugin,  add_completion, add_man};
 
 /// Adds the verbs of this program: `all_verbs`, or `first_verbs`.
 AddVerb add_verbs;

@@ -49,7 +49,7 @@ TEST(Help, FitsInto80Columns) {
 
 TEST(Help, KnowsTheVerbsOfTheContract) {
   EXPECT_THAT(verbs(), ::testing::IsSupersetOf({"run", "diagnose", "report", "certify", "check", "simulate",
-                                                "stability", "list", "describe", "schema", "completion", "man"}));
+                                                "stability", "data", "list", "describe", "schema", "completion", "man"}));
 }
 
 TEST(Help, NamesTheVerbsThatExistAndTheExitCodes) {

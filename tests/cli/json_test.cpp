@@ -123,6 +123,23 @@ TEST(Json, OfStabilityIsThatOfAResult) {
   EXPECT_EQ(judged.at("files"), json::parse(R"(["map/stability.csv", "map/energy.csv"])"));
 }
 
+TEST(Json, OfDataHasTheRowsThatAFitTakes) {
+  trial::Bench bench;
+  // Nominal stress of an incompressible strip: Cauchy stress over the stretch.
+  auto& data = bench.experiment["tests"]["circ"]["data"];
+  data["stress_measure"] = "first_piola_kirchhoff";
+  data["rows"] = "0:20:2";
+  bench.folder.write("circ.csv", "stretch [1],stress [Pa]\n1.1,1000\n1.2,2000\n1.3,3000\n1.4,4000\n");
+  const auto ended = bench.tunica({"data", "experiment.json", "--json", "-o", "rows"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const json taken = json::parse(ended.out).at("tests").at("circ");
+  EXPECT_EQ(taken.at("columns").at("stretch [1]"), json::parse("[1.1, 1.3]"));
+  EXPECT_NEAR(taken.at("columns").at("stress [kPa]").at(1).get<double>(), 3 * 1.3, 1e-12);
+  EXPECT_EQ(taken.at("lines"), json::parse("[2, 4]"));
+  EXPECT_EQ(taken.at("prescribed"), json::parse(R"(["stretch"])"));
+  EXPECT_TRUE(std::filesystem::exists(bench.folder.path() / "rows/axial.csv"));
+}
+
 TEST(Json, OfCertifyHasEveryRun) {
   const trial::Bench bench;
   ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--no-certificate"}).code, 0);

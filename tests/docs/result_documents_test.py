@@ -144,6 +144,7 @@ class Documents(unittest.TestCase):
         self.answer("plugin_check", "plugin", "check", str(PLUGIN), "--json", "--only", "concurrent_calls_agree")
 
     def test_stability_and_simulation(self):
+        self.answer("taken_rows", "data", "treloar/experiment.json", "--json")
         self.answer("stability_answer", "stability", "treloar/experiment.json", "--model", "ogden", "--json")
         self.tunica("simulate", "treloar/experiment.json", "--model", "ogden", "-o", str(self.folder / "simulated"))
         self.conforms(json.loads((self.folder / "simulated/simulation.json").read_text(encoding="utf-8")), ANSWERS, "simulation")

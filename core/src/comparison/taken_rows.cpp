@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/taken_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "data/dataset.hpp"
+
+namespace tunica::comparison {
+
+namespace {
+
+std::string unit_of(const std::string& observable, const std::vector<Observable>& declared) {
+  const auto found =
+      std::find_if(declared.begin(), declared.end(), [&](const Observable& one) { return one.name == observable; });
+  return found == declared.end() ? "1" : found->unit;
+}
+
+TakenRows taken_of(const experiment::TestEntry& test, const std::vector<Observable>& observables) {
+  const data::Dataset dataset = data::read_dataset(test.data, observables);
+  TakenRows taken{{test.name, {}, {}}, dataset.lines, dataset.understood, dataset.warnings};
+  const auto add = [&](const std::string& name, const std::string& unit, const std::vector<double>& values) {
+    taken.table.headers.push_back(fmt::format("{} [{}]", name, unit));
+    taken.table.columns.push_back(values);
+  };
+  for (const auto& [name, values] : dataset.abscissae) {
+    add(name, unit_of(name, observables), values);
+    taken.table.prescribed.push_back(name);
+  }
+  if (!dataset.time.empty()) add("time", "s", dataset.time);
+  for (const data::Channel& channel : dataset.channels) add(channel.observable, channel.unit, channel.values);
+  return taken;
+}
+
+}  // namespace
+
+std::vector<TakenRows> taken_rows(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+  std::vector<TakenRows> taken;
+  for (const experiment::TestEntry& test : experiment.tests)
+    taken.push_back(taken_of(test, catalogue.tests().find(test.type)->second.factory.observables));
+  return taken;
+}
+
+nlohmann::ordered_json taken_rows_json(const std::vector<TakenRows>& tests) {
+  auto document = nlohmann::ordered_json::object();
+  for (const TakenRows& taken : tests) {
+    auto columns = nlohmann::ordered_json::object();
+    for (std::size_t c = 0; c < taken.table.headers.size(); ++c)
+      columns[taken.table.headers[c]] = taken.table.columns[c];
+    document["tests"][taken.table.test] = {{"columns", std::move(columns)},
+                                           {"prescribed", taken.table.prescribed},
+                                           {"lines", taken.lines},
+                                           {"understood", taken.understood},
+                                           {"warnings", taken.warnings}};
+  }
+  return document;
+}
+
+}  // namespace tunica::comparison
