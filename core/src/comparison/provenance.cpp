@@ -51,4 +51,18 @@ Provenance provenance_of(const experiment::Experiment& experiment, std::vector<s
   return result;
 }
 
+nlohmann::ordered_json provenance_json(const Provenance& provenance) {
+  auto libraries = nlohmann::ordered_json::object();
+  for (const auto& [library, version] : provenance.libraries) libraries[library] = version;
+  return {{"tunica", provenance.version},
+          {"plugins", provenance.plugins},
+          {"compiler", provenance.compiler},
+          {"libraries", std::move(libraries)},
+          {"vector_level", provenance.vector_level},
+          {"seed", provenance.seed},
+          {"input_sha256", provenance.input_sha256},
+          {"data", provenance.data},
+          {"date", provenance.date}};
+}
+
 }  // namespace tunica::comparison

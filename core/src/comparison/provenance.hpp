@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "execution/plan.hpp"
 
 namespace tunica::comparison {
@@ -28,5 +30,8 @@ Provenance provenance_of(const execution::Plan& plan);
 /// Of what was made from an experiment without a plan; `data` as Layout::data_hashes has them.
 Provenance provenance_of(const experiment::Experiment& experiment, std::vector<std::string> plugins,
                          std::vector<std::string> data);
+
+/// `provenance` of result.json.
+nlohmann::ordered_json provenance_json(const Provenance& provenance);
 
 }  // namespace tunica::comparison

@@ -339,20 +339,6 @@ json warning_json(const execution::Warning& warning) {
           {"sentence", warning.sentence}};
 }
 
-json provenance_json(const Provenance& provenance) {
-  json libraries = json::object();
-  for (const auto& [library, version] : provenance.libraries) libraries[library] = version;
-  return {{"tunica", provenance.version},
-          {"plugins", provenance.plugins},
-          {"compiler", provenance.compiler},
-          {"libraries", std::move(libraries)},
-          {"vector_level", provenance.vector_level},
-          {"seed", provenance.seed},
-          {"input_sha256", provenance.input_sha256},
-          {"data", provenance.data},
-          {"date", provenance.date}};
-}
-
 std::string result_json(const Summary& summary, const Provenance& provenance) {
   json runs = json::array(), ranking = json::array();
   for (const auto& run : summary.runs) runs.push_back(run_json(run));

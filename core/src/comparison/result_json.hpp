@@ -23,7 +23,4 @@ nlohmann::ordered_json misfit_json(const assembly::Misfit& misfit);
 /// How far each channel is missed, in its unit: of a run's best point, and of a diagnosis.
 nlohmann::ordered_json channel_sizes_json(const std::vector<assembly::ChannelSize>& sizes);
 
-/// `provenance` of result.json.
-nlohmann::ordered_json provenance_json(const Provenance& provenance);
-
 }  // namespace tunica::comparison
