@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/version.h>
+#include <sys/utsname.h>
 #include <tbb/version.h>
 
 #include "data/sha256.hpp"
@@ -18,6 +19,16 @@
 #include "tunica/plugin.hpp"
 
 namespace tunica::comparison {
+
+namespace {
+
+/// "Linux 6.1.0, x86_64"; "unknown" where the system does not say.
+std::string system_of_this_machine() {
+  utsname found{};
+  return uname(&found) == 0 ? fmt::format("{} {}, {}", found.sysname, found.release, found.machine) : "unknown";
+}
+
+}  // namespace
 
 std::string version() { return TUNICA_VERSION; }
 
@@ -35,6 +46,7 @@ Provenance provenance_of(const experiment::Experiment& experiment, std::vector<s
   result.plugins = std::move(plugins);
   result.data = std::move(data);
   result.compiler = "g++ " __VERSION__;
+  result.system = system_of_this_machine();
   result.vector_level = detail::name(detail::vector_level());
   result.libraries = {
       {"boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
@@ -54,15 +66,11 @@ Provenance provenance_of(const experiment::Experiment& experiment, std::vector<s
 nlohmann::ordered_json provenance_json(const Provenance& provenance) {
   auto libraries = nlohmann::ordered_json::object();
   for (const auto& [library, version] : provenance.libraries) libraries[library] = version;
-  return {{"tunica", provenance.version},
-          {"plugins", provenance.plugins},
-          {"compiler", provenance.compiler},
-          {"libraries", std::move(libraries)},
-          {"vector_level", provenance.vector_level},
-          {"seed", provenance.seed},
-          {"input_sha256", provenance.input_sha256},
-          {"data", provenance.data},
-          {"date", provenance.date}};
+  return {{"tunica", provenance.version},      {"plugins", provenance.plugins},
+          {"compiler", provenance.compiler},   {"system", provenance.system},
+          {"libraries", std::move(libraries)}, {"vector_level", provenance.vector_level},
+          {"seed", provenance.seed},           {"input_sha256", provenance.input_sha256},
+          {"data", provenance.data},           {"date", provenance.date}};
 }
 
 }  // namespace tunica::comparison

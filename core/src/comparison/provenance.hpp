@@ -17,6 +17,7 @@ struct Provenance {
   std::string version;               ///< of tunica
   std::vector<std::string> plugins;  ///< "gho 0.1.0", those in use, sorted
   std::string compiler;
+  std::string system;                                          ///< "Linux 6.1.0, x86_64"
   std::string vector_level;                                    ///< "baseline", "avx2" or "avx512"
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
   std::uint64_t seed = 0;
