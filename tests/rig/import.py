@@ -53,6 +53,15 @@ assert "stress = force / (5 mm × 1.5 mm): first Piola-Kirchhoff stress (nominal
 assert "rows: 5 of the 13 in the file: the last cycle, loading only" in words(printed), printed
 page = (folder / "data.html").read_text(encoding="utf-8")
 assert "5 of 13 rows are used" in page and "the curve that is fitted" in page and "Kraft [N]" in page
+# Two files are two specimens, or two tests of one.
+other = table("other.csv", ["s;mm;N", "0;0;0", "1;2;0,6", "2;4;1,1"])
+by_size = ("--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "20 mm")
+experiment, said = imported(strip, other, *by_size)
+assert [run["tests"] for run in experiment["runs"]] == [["strip"], ["other"]], experiment["runs"]
+assert "of one specimen say --together" in said, said
+experiment, said = imported(strip, other, "--together", *by_size)
+assert [run["tests"] for run in experiment["runs"]] == [["strip", "other"]], experiment["runs"]
+assert "--together" not in said, said
 _, said = imported(strip, "--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "preload", "--preload", "0.5 N", code=2)
 assert "grip_distance" in said, said
 _, said = imported(strip, "--width=-5mm", "--thickness", "1 mm", "--gauge-length", "20 mm", code=2)

@@ -266,7 +266,7 @@ std::string export_card(const Library& library, const std::string& result, const
 
 /// Texts of the command line: single ones under the names of options, and lists.
 py::dict import_files(const Library& library, const std::map<std::string, std::string>& texts,
-                      const std::map<std::string, std::vector<std::string>>& lists, bool join) {
+                      const std::map<std::string, std::vector<std::string>>& lists, bool join, bool together) {
   imports::ImportRequest request;
   auto& answers = request.answers;
   const std::map<std::string, std::string*> places = {{"test", &answers.test},
@@ -296,6 +296,7 @@ py::dict import_files(const Library& library, const std::map<std::string, std::s
       {"options", &request.options}};
   for (const auto& [name, list] : lists) *several.at(name) = list;
   request.join = join;
+  answers.together = together;
   const auto catalogue = library.catalogue();
   imports::Imported imported;
   {

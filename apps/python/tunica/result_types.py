@@ -1626,6 +1626,8 @@ class Provenance(TypedDict):
     plugins: list[str]
     #: That built the program.
     compiler: str
+    #: Operating system and processor that made the result, as "Linux 6.1.0, x86_64".
+    system: str
     #: Instructions that models were evaluated with.
     vector_level: VectorLevel
     #: By name: their version.
@@ -2487,40 +2489,47 @@ class JudgedMaterial(TypedDict):
     models: NotRequired[dict[str, StabilityOfModel]]
 
 
-class Simulation(TypedDict):
-    """simulation.json of `tunica simulate -o DIR`; the predictions are CSV tables."""
-    #: Of the experiment.
-    name: str
-    #: Its entry of "models".
-    model: str
-    #: That were simulated.
-    tests: list[str]
-    #: By name, fixed ones included.
-    parameters: dict[str, Quantity]
-    #: Where the values come from.
-    source: str
-    #: The same with the values.
-    origin: str
-    #: That was added to the predictions, relative; 0: none.
-    noise: float
-    #: Of that noise.
+class PluginCheck(TypedDict):
+    """`tunica plugin check FILE --json`."""
+    #: Name and version.
+    plugin: str
+    #: As it was given.
+    file: str
+    #: Of what was tried.
     seed: int
-    #: Values outside the declared ranges.
-    warnings: list[str]
-    #: Predicted columns.
-    curves: list[SimulationCurves]
+    #: Whether the exit code is 0.
+    passed: bool
+    #: One for each property.
+    findings: list[CheckedProperty]
 
 
-class SimulationCurves(TypedDict):
-    """A predicted column of a table."""
-    #: Name of the test.
-    test: str
-    #: Its name.
-    column: str
-    #: The prescribed column that it is drawn over.
-    over: str
-    #: All prescribed columns of the table.
-    prescribed: list[str]
+#: A property of a part of a plugin.
+CheckedProperty = TypedDict("CheckedProperty", {
+    #: Of the part, in words: model, test or optimiser, for example.
+    "kind": "str",
+    #: Of the part.
+    "name": "str",
+    #: What it was checked with; empty: by itself.
+    "with": "str",
+    #: Its name in docs/plugin-check.md.
+    "property": "str",
+    #: What became of it.
+    "outcome": "OutcomeOfProperty",
+    #: What was held against what.
+    "compared": "str",
+    #: Largest error; relative unless `compared` says otherwise. Null where it is infinite.
+    "worst": "float | None",
+    #: Up to which it holds; 0 with a worst of 0: a matter of yes and no.
+    "tolerance": "float | None",
+    #: Where it does not hold. Absent where it does.
+    "counter_example": "NotRequired[str]",
+    #: Why it was not checked.
+    "reason": "NotRequired[str]",
+    #: What else to know.
+    "note": "NotRequired[str]",
+    #: That it took. Unit: s.
+    "seconds": "float",
+})
 
 
 class Certificates(TypedDict):
@@ -2575,49 +2584,6 @@ class CertifiedRunLowest(TypedDict):
     step: float
     #: Its free parameters, in the order of the run's. Unit: base unit.
     parameters: list[float]
-
-
-class PluginCheck(TypedDict):
-    """`tunica plugin check FILE --json`."""
-    #: Name and version.
-    plugin: str
-    #: As it was given.
-    file: str
-    #: Of what was tried.
-    seed: int
-    #: Whether the exit code is 0.
-    passed: bool
-    #: One for each property.
-    findings: list[CheckedProperty]
-
-
-#: A property of a part of a plugin.
-CheckedProperty = TypedDict("CheckedProperty", {
-    #: Of the part, in words: model, test or optimiser, for example.
-    "kind": "str",
-    #: Of the part.
-    "name": "str",
-    #: What it was checked with; empty: by itself.
-    "with": "str",
-    #: Its name in docs/plugin-check.md.
-    "property": "str",
-    #: What became of it.
-    "outcome": "OutcomeOfProperty",
-    #: What was held against what.
-    "compared": "str",
-    #: Largest error; relative unless `compared` says otherwise. Null where it is infinite.
-    "worst": "float | None",
-    #: Up to which it holds; 0 with a worst of 0: a matter of yes and no.
-    "tolerance": "float | None",
-    #: Where it does not hold. Absent where it does.
-    "counter_example": "NotRequired[str]",
-    #: Why it was not checked.
-    "reason": "NotRequired[str]",
-    #: What else to know.
-    "note": "NotRequired[str]",
-    #: That it took. Unit: s.
-    "seconds": "float",
-})
 
 
 class CohortStatus(TypedDict):
@@ -2680,3 +2646,59 @@ class CohortStatusHeld(TypedDict):
     job: str
     #: In Slurm's words.
     reason: str
+
+
+class TakenRows(TypedDict):
+    """`tunica data --json`: the rows that a fit takes."""
+    #: By name, in the order of the file.
+    tests: dict[str, TakenTest]
+
+
+class TakenTest(TypedDict):
+    """What a fit takes of the files of a test."""
+    #: Values by `name [unit]`, one a row; null where nothing was measured. Unit: that of the key.
+    columns: dict[str, list[float | None]]
+    #: Names of the prescribed quantities.
+    prescribed: list[str]
+    #: Line of each row in the first file; empty where rows have none.
+    lines: list[int]
+    #: What each column was taken for, and which rows were taken.
+    understood: list[str]
+    #: Sentences.
+    warnings: list[str]
+
+
+class Simulation(TypedDict):
+    """simulation.json of `tunica simulate -o DIR`; the predictions are CSV tables."""
+    #: Of the experiment.
+    name: str
+    #: Its entry of "models".
+    model: str
+    #: That were simulated.
+    tests: list[str]
+    #: By name, fixed ones included.
+    parameters: dict[str, Quantity]
+    #: Where the values come from.
+    source: str
+    #: The same with the values.
+    origin: str
+    #: That was added to the predictions, relative; 0: none.
+    noise: float
+    #: Of that noise.
+    seed: int
+    #: Values outside the declared ranges.
+    warnings: list[str]
+    #: Predicted columns.
+    curves: list[SimulationCurves]
+
+
+class SimulationCurves(TypedDict):
+    """A predicted column of a table."""
+    #: Name of the test.
+    test: str
+    #: Its name.
+    column: str
+    #: The prescribed column that it is drawn over.
+    over: str
+    #: All prescribed columns of the table.
+    prescribed: list[str]

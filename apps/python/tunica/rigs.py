@@ -40,14 +40,14 @@ def _pairs(given, what):
 def import_rig(files, output=None, *, test=None, model=None, width=None, thickness=None, height=None, gauge_length=None,
                area=None, diameter=None, specimens=None, strain_measure=None, stress_measure=None, cycle=None, branch=None,
                preload=None, each=None, delimiter=None, decimal=None, skip_lines=None, rows=None, columns=None, units=None,
-               where=None, direction=None, compression=None, options=None, join=False):
+               where=None, direction=None, compression=None, options=None, join=False, together=False):
     """Reads files of a testing machine and writes a first experiment from them, as `tunica import` does; returns an
     Imported, which is an Experiment.
 
     files: a path, or several. output: the experiment file to write; without it the name of the data file with .json.
     The other arguments are the options of the command line, sizes as texts with their unit ("5 mm"). columns is
     {quantity: column}, units {column: unit}, where {column: value}, options {key: value} of the test; direction and
-    compression are one word, or a dictionary by test and by column.
+    compression are one word, or a dictionary by test and by column. together: the files are tests of one specimen.
 
     What the files do not say raises InputError, which names each option that answers, and nothing is written."""
     given = {"test": test, "model": model, "width": width, "thickness": thickness, "height": height,
@@ -68,5 +68,5 @@ def import_rig(files, output=None, *, test=None, model=None, width=None, thickne
     lists = {"files": [text(file, "files") for file in several], "columns": _pairs(columns, "columns"),
              "units": _pairs(units, "units"), "where": _pairs(where, "where"), "direction": _pairs(direction, "direction"),
              "compression": _pairs(compression, "compression"), "options": _pairs(options, "options")}
-    found = _core.import_files(library(), texts, lists, bool(join))
+    found = _core.import_files(library(), texts, lists, bool(join), bool(together))
     return Imported(library().read(found["file"]), found)
