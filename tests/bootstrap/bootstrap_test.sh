@@ -99,6 +99,8 @@ case $2 in
     grep -oE -- "--target .*|^tunica run" "$CALLS" >"$here/order"
     diff - "$here/order" <<<$'--target first_result\ntunica run\n--target product' || fail "another order"
     output_has "now building the rest"
+    : >"$CALLS" && touch "$here/mine.json" && RUN_STATUS=1 expect 1 "$here/bootstrap" run "$here/mine.json"
+    grep -q -- "--target first_result every_plugin" "$CALLS" || fail "an own experiment may need any plugin"
     for status in 2 3 130; do
       : >"$CALLS" && RUN_STATUS=$status expect $status "$here/bootstrap" run
       ! grep -q "target product" "$CALLS" || fail "went on to build after status $status"
