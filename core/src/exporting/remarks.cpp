@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/folder.hpp"
+#include "report/pieces.hpp"
 #include "results/keys.hpp"
 #include "results/reading.hpp"
 #include "text/misfit_words.hpp"
