@@ -55,7 +55,7 @@ void add_data(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_flag("--json", options->as_json, "Print one JSON object with all rows, and their lines in the file");
   verb->footer(
       "Examples:\n"
-      "  tunica data experiment.json -o rows    what is left after units, cycles, branches");
+      "  tunica data experiment.json -o rows    after units, cycles and branches");
   verb->callback([&global, &action, options] { action = [&global, options] { return data(global, *options); }; });
 }
 

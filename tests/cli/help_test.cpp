@@ -48,8 +48,9 @@ TEST(Help, FitsInto80Columns) {
 }
 
 TEST(Help, KnowsTheVerbsOfTheContract) {
-  EXPECT_THAT(verbs(), ::testing::IsSupersetOf({"run", "diagnose", "report", "certify", "check", "simulate",
-                                                "stability", "data", "list", "describe", "schema", "completion", "man"}));
+  EXPECT_THAT(verbs(),
+              ::testing::IsSupersetOf({"run", "diagnose", "report", "certify", "check", "simulate", "stability", "data",
+                                       "list", "describe", "schema", "completion", "man"}));
 }
 
 TEST(Help, NamesTheVerbsThatExistAndTheExitCodes) {

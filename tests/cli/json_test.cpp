@@ -125,7 +125,7 @@ TEST(Json, OfStabilityIsThatOfAResult) {
 
 TEST(Json, OfDataHasTheRowsThatAFitTakes) {
   trial::Bench bench;
-  // Nominal stress of an incompressible strip: Cauchy stress over the stretch.
+  // Units are base units; a stress stays in the measure of its file, and predictions are brought to that.
   auto& data = bench.experiment["tests"]["circ"]["data"];
   data["stress_measure"] = "first_piola_kirchhoff";
   data["rows"] = "0:20:2";
@@ -134,7 +134,7 @@ TEST(Json, OfDataHasTheRowsThatAFitTakes) {
   ASSERT_EQ(ended.code, 0) << ended.err;
   const json taken = json::parse(ended.out).at("tests").at("circ");
   EXPECT_EQ(taken.at("columns").at("stretch [1]"), json::parse("[1.1, 1.3]"));
-  EXPECT_NEAR(taken.at("columns").at("stress [kPa]").at(1).get<double>(), 3 * 1.3, 1e-12);
+  EXPECT_DOUBLE_EQ(taken.at("columns").at("stress [kPa]").at(1).get<double>(), 3);
   EXPECT_EQ(taken.at("lines"), json::parse("[2, 4]"));
   EXPECT_EQ(taken.at("prescribed"), json::parse(R"(["stretch"])"));
   EXPECT_TRUE(std::filesystem::exists(bench.folder.path() / "rows/axial.csv"));

@@ -108,6 +108,7 @@ struct CardVolume {
 
 /// The softening that a mechanism adds to a card, of Ogden and Roxburgh (1999): below its largest value Wmax so far, an
 /// energy W gives the stress η ∂W/∂F with η = 1 − 1/r erf((Wmax − W)/(m + β Wmax)).
+/// Programs read the three numbers in this order. W is the energy at constant volume.
 struct CardSoftening {
   double r;     ///< above 1: at most 1/r of the stress is lost
   double m;     ///< kPa

@@ -91,6 +91,9 @@ inline ModelFactory with_card(ModelFactory factory, CardFormula card) {
 }
 
 /// The same factory as the first choice for these specimens.
+///
+/// Options of the choice are not checked here. The host reads them as it reads an experiment file, and refuses one that
+/// the factory does not declare.
 inline ModelFactory with_first_choice(ModelFactory factory, FirstChoice choice) {
   factory.first_choice = std::move(choice);
   return factory;
