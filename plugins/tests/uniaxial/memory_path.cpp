@@ -4,18 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "maxwell_pass.hpp"
+#include "maxwell_path.hpp"
+#include "symmetric_memory.hpp"
 #include "tunica/detail/axis_path.hpp"
 #include "tunica/detail/solve_strip.hpp"
 #include "tunica/detail/vector_math.hpp"
 
 namespace tunica::uniaxial {
 namespace {
-
-constexpr int iterations = 40;
-// Newton's step in y = ln u. Its error is the square of the step before, so that behind a step of `near` the
-// derivatives by parameters can be taken at once; they are taken again where a kink between left more than `settled`.
-constexpr double near = 1e-5, settled = 1e-9;
 
 /// Scratch of one thread.
 struct Memory {
@@ -39,9 +35,11 @@ class Pass {
  public:
   /// `symmetric`: the elastic response does not tell the lateral axes apart. Rows that memory leaves so stay at λ2 =
   /// λ3.
-  Pass(const Strip& strip, const TestInput& input, std::span<const double> stretch, bool symmetric, Memory& memory)
+  Pass(const Strip& strip, const TestInput& input, std::span<const double> stretch, bool symmetric,
+       const PathRows& rows, Memory& memory)
       : strip_(strip),
         stretch_(stretch),
+        rows_(rows),
         m_(memory),
         n_(stretch.size()),
         count_(input.model_parameters.size()),
@@ -102,14 +100,15 @@ class Pass {
     for (std::size_t j = 0; parameters && j < count_; ++j) {
       const std::size_t k = first + j;
       by[k] = (c2 * g2[k] - c3 * g3[k]) * by_residual;
-      m_.y_dp[j * n_ + i] = by[k];
-      m_.stress_dp[j * n_ + i] = 2 * (c1 * g1[k] - c3 * g3[k]) + stress_by_y * by[k];
+      if (!rows_.y_dp.empty()) rows_.y_dp[j * n_ + i] = by[k];
+      rows_.stress_dp[j * n_ + i] = 2 * (c1 * g1[k] - c3 * g3[k]) + stress_by_y * by[k];
     }
     path.settle(by);
   }
 
   const Strip& strip_;
   std::span<const double> stretch_;
+  const PathRows& rows_;
   Memory& m_;
   std::size_t n_, count_;
   bool symmetric_;
@@ -121,7 +120,7 @@ bool find_branches(const Model& model, std::size_t parameters, std::vector<Maxwe
   found.clear();
   const auto* const maxwell = dynamic_cast<const MaxwellModel*>(&model);
   return maxwell != nullptr && maxwell->add_branches(found) && !found.empty() &&
-         found.size() <= MaxwellPass::most_branches &&
+         found.size() <= MaxwellPath::most_branches &&
          std::all_of(found.begin(), found.end(),
                      [parameters](const auto& one) { return one.g < parameters && one.tau < parameters; });
 }
@@ -135,25 +134,91 @@ void stretch_by(const std::vector<double>& y, std::vector<double>& u) {
 }
 
 /// Passes until all rows have settled; false where they do not.
-template <class AnyPass>
-bool settle(AnyPass& pass, bool symmetric, bool parameters, Memory& m, Status& status) {
+bool settle(Pass& pass, bool symmetric, bool parameters, Memory& m, Status& status) {
   const auto step_on = [&m] { stretch_by(m.step, m.u); };
   // Symmetry has given the answer already: one pass then has values and derivatives.
   bool found = symmetric && parameters;
-  for (int k = 0; k < iterations && !found; ++k) {
+  for (int k = 0; k < NewtonStep::most && !found; ++k) {
     if (status = pass.run(false); !status.ok()) return false;
     if (!pass.sound()) return false;
-    found = pass.largest_step() < (parameters ? near : free_strip::last_step);
+    found = pass.largest_step() < (parameters ? NewtonStep::near : free_strip::last_step);
     if (!found || parameters) step_on();
   }
-  for (int k = 0; parameters && found && k < iterations; ++k) {
+  for (int k = 0; parameters && found && k < NewtonStep::most; ++k) {
     if (status = pass.run(true); !status.ok()) return false;
     found = pass.sound();
-    if (!found || pass.largest_step() < settled) break;
+    if (!found || pass.largest_step() < NewtonStep::settled) break;
     step_on();
-    found = k + 1 < iterations;
+    found = k + 1 < NewtonStep::most;
   }
   return found;
+}
+
+/// λ2² of all rows and what else the path has found; false where Newton's method does not end.
+bool follow(const Strip& strip, const TestInput& input, std::span<const double> stretch, const free_strip::Start& start,
+            const PathRows& rows, bool parameters, Status& status) {
+  Memory& m = thread_memory();
+  const std::size_t n = stretch.size();
+  const bool of_branches = !strip.time.empty() && find_branches(input.model, input.model_parameters.size(), m.branches);
+  if (of_branches && remember_symmetric(strip, input, stretch, m.branches, m.elastic, m.stress,
+                                        parameters ? rows.stress_dp : std::span<double>(), status)) {
+    for (std::size_t i = 0; i < n; ++i) m.u[i] = 1 / stretch[i];
+    std::fill(rows.y_dp.begin(), rows.y_dp.end(), 0.0);
+    return status.ok();
+  }
+  // Begun from the elastic strip.
+  const Model& elastic = input.model.elastic();
+  m.y.resize(n);
+  StripPath path{.loaded = strip.loaded,
+                 .parameters = input.model_parameters.first(elastic.describe().parameters.size()),
+                 .stretch = stretch,
+                 .stress = {},
+                 .lateral = m.y};
+  if (input.abscissae.empty()) start.set(path);
+  if (status = free_strip::solve(elastic, path, m.elastic); !status.ok()) return false;
+  if (of_branches) return MaxwellPath(strip, input, stretch, m.branches, m.y, rows).solve(parameters, status);
+  m.step.resize(n);
+  m.before.assign(n, 0);
+  m.u.assign(n, 1);
+  stretch_by(m.y, m.u);
+  const bool symmetric = free_strip::is_symmetric({elastic, path.parameters, path.loaded}, stretch);
+  if (symmetric)
+    for (std::size_t i = 0; i < n; ++i) m.u[i] = 1 / stretch[i];
+  Pass pass(strip, input, stretch, symmetric, rows, m);
+  if (!settle(pass, symmetric, parameters, m, status)) return false;
+  stretch_by(m.step, m.u);
+  return true;
+}
+
+/// Whether every channel is a stress, so that nothing asks for the lateral stretch by parameters.
+bool of_stress(const Strip& strip) {
+  return std::all_of(strip.channels.begin(), strip.channels.end(),
+                     [](Channel channel) { return channel == Channel::stress; });
+}
+
+/// All channels from the stress and λ2² of every row.
+void write(const Strip& strip, std::span<const double> stretch, const PathRows& path, std::size_t count,
+           const TestOutput& output) {
+  const std::size_t n = stretch.size(), channels = strip.channels.size(), rows = channels * n;
+  const bool parameters = !output.jacobian.empty();
+  for (std::size_t k = 0; k < channels; ++k) {
+    const auto solution = [&](std::size_t i) {
+      const double y = strip.channels[k] == Channel::stress ? 0 : std::log(path.u[i]);
+      return RowSolution{stretch[i], path.stress[i], y, 0, 0};
+    };
+    for (std::size_t i = 0; !output.values.empty() && i < n; ++i)
+      output.values[k * n + i] = channel_value(strip.channels[k], strip.measure, solution(i));
+    // One channel of Cauchy stress is written where it was derived.
+    if (!parameters || (path.stress_dp.data() == output.jacobian.data() && strip.measure == Measure::cauchy)) continue;
+    for (std::size_t j = 0; j < count; ++j)
+      for (std::size_t i = 0; i < n; ++i) {
+        const double y_p = path.y_dp.empty() ? 0 : path.y_dp[j * n + i];
+        output.jacobian[j * rows + k * n + i] =
+            channel_derivative(strip.channels[k], strip.measure, solution(i), path.stress_dp[j * n + i], y_p);
+      }
+  }
+  // At α = 0 the mirrored families make every channel even in α.
+  if (parameters) std::fill_n(output.jacobian.data() + count * rows, rows, 0.0);
 }
 
 }  // namespace
@@ -161,43 +226,26 @@ bool settle(AnyPass& pass, bool symmetric, bool parameters, Memory& m, Status& s
 Status MemoryPath::predict(const Strip& strip, const TestInput& input, const TestOutput& output) const {
   const std::span<const double> stretch =
       input.abscissae.empty() ? std::span<const double>(strip.stretch) : input.abscissae[0];
-  const std::size_t n = stretch.size(), channels = strip.channels.size(), rows = channels * n;
-  const std::size_t count = input.model_parameters.size();
+  const std::size_t n = stretch.size(), count = input.model_parameters.size();
   const bool parameters = !output.jacobian.empty();
   Memory& m = thread_memory();
-  m.y.resize(n);
-  m.step.resize(n);
-  m.before.assign(n, 0);
+  m.u.resize(n);
   m.stress.resize(n);
-  if (parameters) {
-    m.y_dp.resize(n * count);
+  PathRows rows{m.u, m.stress, {}, {}};
+  if (parameters && strip.channels.size() == 1) rows.stress_dp = output.jacobian.first(n * count);
+  if (parameters && strip.channels.size() > 1) {
     m.stress_dp.resize(n * count);
+    rows.stress_dp = m.stress_dp;
   }
-
-  // Begun from the elastic strip.
-  const Model& elastic = input.model.elastic();
-  StripPath path{.loaded = strip.loaded,
-                 .parameters = input.model_parameters.first(elastic.describe().parameters.size()),
-                 .stretch = stretch,
-                 .stress = {},
-                 .lateral = m.y};
-  if (input.abscissae.empty()) start_.set(path);
-  if (Status status = free_strip::solve(elastic, path, m.elastic); !status.ok()) return status;
-  m.u.assign(n, 1);
-  stretch_by(m.y, m.u);
-  const bool symmetric = free_strip::is_symmetric({elastic, path.parameters, path.loaded}, stretch);
-  if (symmetric)
-    for (std::size_t i = 0; i < n; ++i) m.u[i] = 1 / stretch[i];
-  const PathRows rows_of_path{stretch, m.u, m.step, m.before, m.stress, m.stress_dp, m.y_dp};
+  if (parameters && !of_stress(strip)) {
+    m.y_dp.resize(n * count);
+    rows.y_dp = m.y_dp;
+  }
   Status status;
-  const auto settles = [&](auto&& pass) { return settle(pass, symmetric, parameters, m, status); };
-  const bool of_branches = !strip.time.empty() && find_branches(input.model, count, m.branches);
-  const bool found = of_branches ? settles(MaxwellPass(strip, input, rows_of_path, symmetric, m.branches))
-                                 : settles(Pass(strip, input, stretch, symmetric, m));
-  if (!status.ok()) return status;
-  if (!found) return Status::failed("uniaxial: no lateral equilibrium along the path of a model with memory");
+  if (!follow(strip, input, stretch, start_, rows, parameters, status))
+    return status.ok() ? Status::failed("uniaxial: no lateral equilibrium along the path of a model with memory")
+                       : status;
 
-  stretch_by(m.step, m.u);
   for (std::size_t i = 0; i < n; ++i) {
     if (!std::isfinite(m.stress[i]) || !(m.u[i] > 0) || !std::isfinite(m.u[i]))
       return Status::failed("uniaxial: the stress overflows at " + row_name(strip, stretch, i));
@@ -205,20 +253,7 @@ Status MemoryPath::predict(const Strip& strip, const TestInput& input, const Tes
     output.diagnostics[i] = std::sqrt(m.u[i]);
     output.diagnostics[n + i] = 1 / (stretch[i] * output.diagnostics[i]);
   }
-  for (std::size_t k = 0; k < channels; ++k) {
-    const auto solution = [&](std::size_t i) {
-      const double y = strip.channels[k] == Channel::stress ? 0 : std::log(m.u[i]);
-      return RowSolution{stretch[i], m.stress[i], y, 0, 0};
-    };
-    for (std::size_t i = 0; !output.values.empty() && i < n; ++i)
-      output.values[k * n + i] = channel_value(strip.channels[k], strip.measure, solution(i));
-    for (std::size_t j = 0; parameters && j < count; ++j)
-      for (std::size_t i = 0; i < n; ++i)
-        output.jacobian[j * rows + k * n + i] = channel_derivative(strip.channels[k], strip.measure, solution(i),
-                                                                   m.stress_dp[j * n + i], m.y_dp[j * n + i]);
-  }
-  // At α = 0 the mirrored families make every channel even in α.
-  if (parameters) std::fill_n(output.jacobian.data() + count * rows, rows, 0.0);
+  write(strip, stretch, rows, count, output);
   return {};
 }
 

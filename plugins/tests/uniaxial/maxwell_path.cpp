@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "maxwell_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "relaxation.hpp"
+#include "tunica/detail/free_strip.hpp"
+#include "tunica/detail/lanes.hpp"
+#include "tunica/detail/vector_math.hpp"
+
+namespace tunica::uniaxial {
+namespace {
+
+constexpr std::size_t block = MaxwellPath::block, most = MaxwellPath::most_branches;
+using Column = std::array<double, block>;
+using Axes = std::array<Column, 3>;  ///< 0 the loaded one, 1 transverse, 2 normal
+
+/// What one branch carries, as if its stiffness were 1.
+struct Branch {
+  Relaxation relaxation;
+  double g = 0;
+  std::array<double, 3> h_before, t_before;  ///< h; ∂h/∂τ, at the end of the rows before
+  std::array<double, 3> h_after, t_after;    ///< and of the block
+  Axes h, t;                                 ///< h; g ∂h/∂τ
+  Column again;  ///< what a change of g' one row ago adds now, beside what it adds to h: e^{−x} φ_before − φ
+};
+
+/// BlockScratch of one thread. Columns of the model have the rows of the block as their stride.
+struct BlockScratch {
+  std::array<double, 3 * block> c, gradient;
+  std::array<double, 6 * block> hessian;
+  std::vector<double> gradient_dp;
+  Axes slope, dev, dev_slope, all;                          ///< dg/dy; g'; dg'/dy; g with all h
+  Column residual, by_y, by_residual, stress, stress_by_y;  ///< r, dr/dy, dy/dr, σ11, ∂σ11/∂y
+  Column start, step, before, nothing{};                    ///< y of the elastic strip; of Newton, and the one before
+  std::array<double, 3> dev_before, dev_after;              ///< g' of the row before the block, and of its last one
+  std::array<double, 4> seen;                               ///< y beside start in rows at equal distances, the last first
+  std::array<Branch, most> branches;
+  std::vector<double> memory_dp, dev_dp_before;  ///< derivatives of h and of g' at the row before, [·][parameter]
+};
+BlockScratch& thread_block() {
+  thread_local BlockScratch instance;
+  return instance;
+}
+
+void make_room(std::vector<double>& column, std::size_t n) {
+  if (column.size() < n) column.resize(n);
+}
+
+/// The polynomial of this order through the last shifts, `ahead` distances beyond the last row: Newton's backward form.
+double continued(const std::array<double, 4>& seen, std::size_t order, double ahead) {
+  std::array<double, 4> difference = seen;
+  double value = seen[0], weight = 1;
+  for (std::size_t k = 1; k <= order; ++k) {
+    for (std::size_t j = 0; j + k < difference.size(); ++j) difference[j] -= difference[j + 1];
+    weight *= (ahead + static_cast<double>(k) - 1) / static_cast<double>(k);
+    value += weight * difference[0];
+  }
+  return value;
+}
+
+constexpr std::size_t distance = block / 4;
+double ahead(std::size_t row) { return static_cast<double>(row + 1) / distance; }
+
+}  // namespace
+
+MaxwellPath::MaxwellPath(const Strip& strip, const TestInput& input, std::span<const double> stretch,
+                         std::span<const MaxwellModel::Branch> branches, std::span<double> y, const PathRows& rows)
+    : strip_(strip),
+      input_(input),
+      stretch_(stretch),
+      branches_(branches),
+      y_(y),
+      rows_(rows),
+      n_(stretch.size()),
+      count_(input.model_parameters.size()),
+      elastic_count_(input.model.elastic().describe().parameters.size()) {
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    Branch& branch = thread_block().branches[b];
+    branch.g = input.model_parameters[branches[b].g];
+    branch.h_before = branch.t_before = {};
+  }
+}
+
+/// g' = g − w/c with w = ⅓ Σ g c, before the first row, where c = 1.
+Status MaxwellPath::evaluate_rest(bool parameters) {
+  BlockScratch& s = thread_block();
+  const std::size_t padded = count_ + detail::widest;
+  if (parameters) {
+    make_room(s.gradient_dp, 3 * block * elastic_count_);
+    make_room(s.dev_dp_before, 3 * padded);
+    make_room(s.memory_dp, 3 * padded * branches_.size());
+    std::fill(s.dev_dp_before.begin(), s.dev_dp_before.end(), 0.0);
+    std::fill(s.memory_dp.begin(), s.memory_dp.end(), 0.0);
+  }
+  s.c[0] = s.c[1] = s.c[2] = 1;
+  const Status status = input_.model.elastic().evaluate_axes(
+      {1, {s.c.data(), 3}, input_.model_parameters.first(elastic_count_)},
+      {{}, {s.gradient.data(), 3}, {}, {s.gradient_dp.data(), parameters ? 3 * elastic_count_ : 0}});
+  if (!status.ok()) return status;
+  const std::array<std::size_t, 3> axis{strip_.loaded, strip_.transverse, 2};
+  const auto deviator = [&axis](const double* g, std::size_t a) { return g[axis[a]] - (g[0] + g[1] + g[2]) / 3; };
+  for (std::size_t a = 0; a < 3; ++a) {
+    s.dev_before[a] = deviator(s.gradient.data(), a);
+    for (std::size_t j = 0; parameters && j < elastic_count_; ++j)
+      s.dev_dp_before[a * padded + j] = deviator(s.gradient_dp.data() + 3 * j, a);
+  }
+  return {};
+}
+
+Status MaxwellPath::evaluate(bool parameters) {
+  BlockScratch& s = thread_block();
+  detail::vectorised([&s, n = size_, stretch = stretch_.data() + first_, y = y_.data() + first_,
+                      c1 = s.c.data() + strip_.loaded * size_, c2 = s.c.data() + strip_.transverse * size_,
+                      c3 = s.c.data() + 2 * size_] {
+    TUNICA_LANES
+    for (std::size_t i = 0; i < n; ++i) {
+      c1[i] = stretch[i] * stretch[i];
+      c2[i] = detail::lane_exp(y[i]);
+      c3[i] = 1 / (c1[i] * c2[i]);
+    }
+  });
+  return input_.model.elastic().evaluate_axes(
+      {size_, {s.c.data(), 3 * size_}, input_.model_parameters.first(elastic_count_)},
+      {{},
+       {s.gradient.data(), 3 * size_},
+       {s.hessian.data(), 6 * size_},
+       {s.gradient_dp.data(), parameters ? 3 * size_ * elastic_count_ : 0}});
+}
+
+/// g' with its derivative by y, where dc2 = c2 and dc3 = −c3:
+///
+///   g'_a = g_a − w/c_a,   dg'_a = dg_a − (dw − w dc_a/c_a)/c_a,   w = ⅓ Σ_b g_b c_b
+inline void MaxwellPath::prepare() {
+  BlockScratch& s = thread_block();
+  const std::array<std::size_t, 3> axis{strip_.loaded, strip_.transverse, 2};
+  std::array<const double*, 3> c, g, h2, h3;
+  for (std::size_t a = 0; a < 3; ++a) {
+    c[a] = s.c.data() + axis[a] * size_;
+    g[a] = s.gradient.data() + axis[a] * size_;
+    h2[a] = s.hessian.data() + free_strip::pair[axis[a]][axis[1]] * size_;
+    h3[a] = s.hessian.data() + free_strip::pair[axis[a]][2] * size_;
+  }
+  TUNICA_LANES
+  for (std::size_t i = 0; i < size_; ++i) {
+    const double c1 = c[0][i], c2 = c[1][i], c3 = c[2][i], g1 = g[0][i], g2 = g[1][i], g3 = g[2][i];
+    const double work = (g1 * c1 + g2 * c2 + g3 * c3) / 3;
+    const double s1 = h2[0][i] * c2 - h3[0][i] * c3;
+    const double s2 = h2[1][i] * c2 - h3[1][i] * c3;
+    const double s3 = h2[2][i] * c2 - h3[2][i] * c3;
+    const double work_y = (s1 * c1 + s2 * c2 + s3 * c3 + g2 * c2 - g3 * c3) / 3;
+    const double v1 = 1 / c1, v2 = 1 / c2, v3 = c1 * c2;
+    s.slope[0][i] = s1;
+    s.slope[1][i] = s2;
+    s.slope[2][i] = s3;
+    s.dev[0][i] = g1 - work * v1;
+    s.dev[1][i] = g2 - work * v2;
+    s.dev[2][i] = g3 - work * v3;
+    s.dev_slope[0][i] = s1 - work_y * v1;
+    s.dev_slope[1][i] = s2 - (work_y - work) * v2;
+    s.dev_slope[2][i] = s3 - (work_y + work) * v3;
+  }
+}
+
+/// h of every branch, with its derivative by τ, and g with all of them.
+template <std::size_t branches>
+inline void MaxwellPath::remember(bool parameters) {
+  BlockScratch& s = thread_block();
+  const std::array<std::size_t, 3> axis{strip_.loaded, strip_.transverse, 2};
+  for (std::size_t a = 0; a < 3; ++a) std::copy_n(s.gradient.data() + axis[a] * size_, size_, s.all[a].data());
+  for (std::size_t b = 0; b < branches; ++b) {
+    Branch& branch = s.branches[b];
+    const double* const decay = branch.relaxation.decay.data();
+    const double* const taken = branch.relaxation.taken.data();
+    const double* const by_tau = branch.relaxation.by_tau.data();
+    const double* const by_tau_of_h = branch.relaxation.by_tau_of_h.data();
+    std::array<double, 3> h = branch.h_before, before = s.dev_before;
+    for (std::size_t i = 0; i < size_; ++i)
+      for (std::size_t a = 0; a < 3; ++a) {
+        h[a] = decay[i] * h[a] + taken[i] * (s.dev[a][i] - before[a]);
+        before[a] = s.dev[a][i];
+        branch.h[a][i] = h[a];
+      }
+    for (std::size_t a = 0; a < 3; ++a) {
+      TUNICA_LANES
+      for (std::size_t i = 0; i < size_; ++i) s.all[a][i] += branch.g * branch.h[a][i];
+    }
+    if (!parameters) continue;
+    std::array<double, 3> t = branch.t_before;
+    h = branch.h_before;
+    before = s.dev_before;
+    for (std::size_t i = 0; i < size_; ++i)
+      for (std::size_t a = 0; a < 3; ++a) {
+        t[a] = decay[i] * t[a] + (by_tau[i] * (s.dev[a][i] - before[a]) + by_tau_of_h[i] * h[a]);
+        before[a] = s.dev[a][i];
+        h[a] = branch.h[a][i];
+        branch.t[a][i] = branch.g * t[a];
+      }
+    branch.t_after = t;
+  }
+}
+
+/// r = c2 g2 − c3 g3 = 0, σ = 2 (c1 g1 − c3 g3), g the elastic response and all h. `moved`: what the steps of the rows
+/// before do to h.
+template <std::size_t branches>
+inline void MaxwellPath::follow() {
+  BlockScratch& s = thread_block();
+  const double* const c1 = s.c.data() + strip_.loaded * size_;
+  const double* const c2 = s.c.data() + strip_.transverse * size_;
+  const double* const c3 = s.c.data() + 2 * size_;
+  Column taken;
+  for (std::size_t i = 0; i < size_; ++i) {
+    taken[i] = 0;
+    for (std::size_t b = 0; b < branches; ++b) taken[i] += s.branches[b].g * s.branches[b].relaxation.taken[i];
+  }
+  TUNICA_LANES
+  for (std::size_t i = 0; i < size_; ++i) {
+    const double g1 = s.all[0][i], g2 = s.all[1][i], g3 = s.all[2][i];
+    const double slope1 = s.slope[0][i] + taken[i] * s.dev_slope[0][i];
+    const double slope2 = s.slope[1][i] + taken[i] * s.dev_slope[1][i];
+    const double slope3 = s.slope[2][i] + taken[i] * s.dev_slope[2][i];
+    s.residual[i] = c2[i] * g2 - c3[i] * g3;
+    s.by_y[i] = c2[i] * (g2 + slope2) + c3[i] * (g3 - slope3);
+    s.by_residual[i] = -1 / s.by_y[i];
+    s.stress[i] = 2 * (c1[i] * g1 - c3[i] * g3);
+    s.stress_by_y[i] = 2 * (c1[i] * slope1 + c3[i] * (g3 - slope3));
+  }
+  std::array<std::array<double, 3>, branches> moved{};
+  std::array<double, 3> dev_moved{};
+  for (std::size_t i = 0; i < size_; ++i) {
+    std::array<double, 3> past{};
+    for (std::size_t b = 0; b < branches; ++b)
+      for (std::size_t a = 0; a < 3; ++a) {
+        moved[b][a] = s.branches[b].relaxation.decay[i] * moved[b][a] + s.branches[b].again[i] * dev_moved[a];
+        past[a] += s.branches[b].g * moved[b][a];
+      }
+    const double at_step = s.residual[i] + (c2[i] * past[1] - c3[i] * past[2]);
+    const double step = s.step[i] = newton_.take(at_step, s.by_y[i], s.by_residual[i], false, s.before[i]);
+    s.stress[i] += 2 * (c1[i] * past[0] - c3[i] * past[2]) + s.stress_by_y[i] * step;
+    for (std::size_t a = 0; a < 3; ++a) dev_moved[a] = s.dev_slope[a][i] * step;
+  }
+  const std::size_t last = size_ - 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    s.dev_after[a] = s.dev[a][last] + dev_moved[a];
+    for (std::size_t b = 0; b < branches; ++b) {
+      Branch& branch = s.branches[b];
+      branch.h_after[a] = branch.h[a][last] + (moved[b][a] + branch.relaxation.taken[last] * dev_moved[a]);
+    }
+  }
+}
+
+/// By as many parameters from the first of them as a vector holds: at fixed y in h first, which gives y, which moves h.
+/// By the own ones of a branch, h itself changes by h (of stiffness 1) and by ∂h/∂τ.
+template <std::size_t branches, std::size_t width>
+inline void MaxwellPath::differentiate(std::size_t first_parameter) {
+  using Group = detail::Lanes<width>;
+  BlockScratch& s = thread_block();
+  const std::array<std::size_t, 3> axis{strip_.loaded, strip_.transverse, 2};
+  const std::size_t padded = count_ + detail::widest;
+  std::array<std::array<const double*, width>, 3> columns;
+  Group elastic;  // 1 in lanes of parameters of the elastic response
+  for (std::size_t l = 0; l < width; ++l) {
+    const std::size_t j = first_parameter + l;
+    elastic.v[l] = j < elastic_count_ ? 1 : 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      columns[a][l] = j < elastic_count_ ? s.gradient_dp.data() + (3 * j + axis[a]) * size_ : s.nothing.data();
+      for (std::size_t b = 0; b < branches; ++b) {
+        if (branches_[b].g == j) columns[a][l] = s.branches[b].h[a].data();
+        if (branches_[b].tau == j) columns[a][l] = s.branches[b].t[a].data();
+      }
+    }
+  }
+  const double* const c1s = s.c.data() + strip_.loaded * size_;
+  const double* const c2s = s.c.data() + strip_.transverse * size_;
+  const double* const c3s = s.c.data() + 2 * size_;
+  std::array<std::array<Group, 3>, branches> h;
+  std::array<Group, 3> before;
+  for (std::size_t a = 0; a < 3; ++a) {
+    before[a] = Group::load(s.dev_dp_before.data() + a * padded + first_parameter);
+    for (std::size_t b = 0; b < branches; ++b)
+      h[b][a] = Group::load(s.memory_dp.data() + (3 * b + a) * padded + first_parameter);
+  }
+  Group y;
+  const std::size_t lanes = std::min(width, count_ - first_parameter);
+  double* const stress_dp = rows_.stress_dp.data() + first_parameter * n_ + first_;
+  double* const y_dp = rows_.y_dp.empty() ? nullptr : rows_.y_dp.data() + first_parameter * n_ + first_;
+  for (std::size_t i = 0; i < size_; ++i) {
+    std::array<Group, 3> g, dev;
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t l = 0; l < width; ++l) g[a].v[l] = columns[a][l][i];
+    const double c1 = c1s[i], c2 = c2s[i], c3 = c3s[i];
+    const Group work = (g[0] * Group(c1) + g[1] * Group(c2) + g[2] * Group(c3)) * elastic * Group(1.0 / 3);
+    dev[0] = g[0] * elastic - work * Group(1 / c1);
+    dev[1] = g[1] * elastic - work * Group(1 / c2);
+    dev[2] = g[2] * elastic - work * Group(c1 * c2);
+    std::array<Group, 3> moved;
+    for (std::size_t a = 0; a < 3; ++a) moved[a] = i == 0 ? Group(0) : Group(s.dev_slope[a][i - 1]) * y;
+    for (std::size_t b = 0; b < branches; ++b) {
+      const Branch& branch = s.branches[b];
+      const Group decay(branch.relaxation.decay[i]), taken(branch.relaxation.taken[i]), again(branch.again[i]),
+          stiffness(branch.g);
+      for (std::size_t a = 0; a < 3; ++a) {
+        h[b][a] = decay * h[b][a] + taken * (dev[a] - before[a]) + again * moved[a];
+        g[a] += stiffness * h[b][a];
+      }
+    }
+    y = (Group(c2) * g[1] - Group(c3) * g[2]) * Group(s.by_residual[i]);
+    const Group stress = Group(2 * c1) * g[0] - Group(2 * c3) * g[2] + Group(s.stress_by_y[i]) * y;
+    before = dev;
+    for (std::size_t l = 0; l < lanes; ++l) stress_dp[l * n_ + i] = stress.v[l];
+    for (std::size_t l = 0; y_dp != nullptr && l < lanes; ++l) y_dp[l * n_ + i] = y.v[l];
+  }
+  const std::size_t last = size_ - 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Group moved = Group(s.dev_slope[a][last]) * y;
+    (before[a] + moved).store(s.dev_dp_before.data() + a * padded + first_parameter);
+    for (std::size_t b = 0; b < branches; ++b)
+      (h[b][a] + Group(s.branches[b].relaxation.taken[last]) * moved)
+          .store(s.memory_dp.data() + (3 * b + a) * padded + first_parameter);
+  }
+}
+
+/// Without parameters Newton's step of every row, that of the rows before it included.
+template <std::size_t branches>
+bool MaxwellPath::solve_block(bool parameters, Status& status) {
+  bool by_parameters = false;
+  for (int k = 0; k < NewtonStep::most; ++k) {
+    if (status = evaluate(by_parameters); !status.ok()) return false;
+    newton_ = {};
+    detail::vectorised([this, by_parameters] {
+      prepare();
+      remember<branches>(by_parameters);
+    });
+    detail::vectorised([this] { follow<branches>(); });
+    if (!newton_.sound) return false;
+    if (by_parameters && newton_.largest < NewtonStep::settled) {
+      detail::vectorised([this](auto width) {
+        for (std::size_t j = 0; j < count_; j += width()) differentiate<branches, width()>(j);
+      });
+      return true;
+    }
+    if (!parameters && newton_.largest < free_strip::last_step) return true;
+    by_parameters = by_parameters || (parameters && newton_.largest < NewtonStep::near);
+    const BlockScratch& s = thread_block();
+    for (std::size_t i = 0; i < size_; ++i) y_[first_ + i] += s.step[i];
+  }
+  return false;
+}
+
+/// Where the blocks before point to.
+void MaxwellPath::enter() {
+  BlockScratch& s = thread_block();
+  for (std::size_t b = 0; b < branches_.size(); ++b) {
+    Branch& branch = s.branches[b];
+    branch.relaxation.set(strip_.time, first_, size_, input_.model_parameters[branches_[b].tau]);
+    branch.again[0] = 0;
+    for (std::size_t i = 1; i < size_; ++i)
+      branch.again[i] = branch.relaxation.decay[i] * branch.relaxation.taken[i - 1] - branch.relaxation.taken[i];
+  }
+  for (std::size_t i = 0; i < size_; ++i) {
+    s.start[i] = y_[first_ + i];
+    s.before[i] = 0;
+    if (first_ > 0) y_[first_ + i] += continued(s.seen, order_, ahead(i));
+  }
+}
+
+void MaxwellPath::leave() {
+  BlockScratch& s = thread_block();
+  detail::vectorised([&s, n = size_, y = y_.data() + first_, u = rows_.u.data() + first_,
+                      stress = rows_.stress.data() + first_] {
+    TUNICA_LANES
+    for (std::size_t i = 0; i < n; ++i) {
+      y[i] += s.step[i];
+      u[i] = detail::lane_exp(y[i]);
+      stress[i] = s.stress[i];
+    }
+  });
+  s.dev_before = s.dev_after;
+  for (Branch& branch : s.branches) {
+    branch.h_before = branch.h_after;
+    branch.t_before = branch.t_after;
+  }
+  if (size_ < block) return;
+  const auto shift = [&](std::size_t row) { return y_[first_ + row] - s.start[row]; };
+  if (first_ > 0) choose_order(shift(block / 2 - 1), shift(block - 1));
+  for (std::size_t k = 0; k < s.seen.size(); ++k) s.seen[k] = shift(block - 1 - k * distance);
+}
+
+/// The one that would have pointed closest to this block.
+void MaxwellPath::choose_order(double half_way, double at_end) {
+  const auto& seen = thread_block().seen;
+  const auto error = [&](std::size_t order) {
+    return std::max(std::abs(continued(seen, order, ahead(block / 2 - 1)) - half_way),
+                    std::abs(continued(seen, order, ahead(block - 1)) - at_end));
+  };
+  order_ = 0;
+  for (std::size_t order = 1; order < seen.size(); ++order)
+    if (error(order) < error(order_)) order_ = order;
+}
+
+bool MaxwellPath::solve(bool parameters, Status& status) {
+  if (status = evaluate_rest(parameters); !status.ok()) return false;
+  const auto with = [&]<std::size_t... number>(std::index_sequence<number...>) {
+    return ((branches_.size() == number + 1 && solve_block<number + 1>(parameters, status)) || ...);
+  };
+  for (first_ = 0; first_ < n_; first_ += size_) {
+    size_ = std::min(block, n_ - first_);
+    enter();
+    if (!with(std::make_index_sequence<most_branches>())) return false;
+    leave();
+  }
+  return true;
+}
+
+}  // namespace tunica::uniaxial

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace tunica::uniaxial {
+
+/// What passes along a path write, row by row; y = ln λ2² is looked for.
+struct PathRows {
+  std::span<double> u;                ///< λ2²
+  std::span<double> stress;           ///< σ11 with the last step in it
+  std::span<double> stress_dp, y_dp;  ///< total derivatives by parameter j of row i at [j·n + i]
+};
+
+/// Newton's step in y where r is at_step and dr/dy is −1/by_residual; the same damping for all kinds of memory.
+struct NewtonStep {
+  // Its error is the square of the step before, so that behind a step of `near` the derivatives by parameters can be
+  // taken at once; they are taken again where a kink between left more than `settled`.
+  static constexpr double near = 1e-5, settled = 1e-9, farthest = 1e10;
+  static constexpr int most = 40;  ///< iterations
+  double largest = 0;              ///< of all rows
+  bool sound = true;               ///< no row was lost
+  [[gnu::always_inline]] double take(double at_step, double slope, double by_residual, bool rests, double& before) {
+    double step = at_step * by_residual;
+    sound = sound && (rests || (slope > 0 && std::abs(step) < farthest));
+    largest = std::max(largest, std::abs(step));
+    step = std::clamp(step, -0.6, 1.5);
+    // Where fibres switch, steps may go to and fro across the kink.
+    if (step * before < 0 && std::abs(step) > 0.5 * std::abs(before)) step *= 0.5;
+    return before = step;
+  }
+};
+
+}  // namespace tunica::uniaxial
