@@ -24,7 +24,7 @@ struct Branch {
   std::array<double, 3> h_before, t_before;  ///< h; ∂h/∂τ, at the end of the rows before
   std::array<double, 3> h_after, t_after;    ///< and of the block
   Axes h, t;                                 ///< h; g ∂h/∂τ
-  Column again;  ///< what a change of g' one row ago adds now, beside what it adds to h: e^{−x} φ_before − φ
+  Axes again;  ///< what a step in y one row ago adds to h now: (e^{−x} φ_before − φ) dg'/dy of the row before
 };
 
 /// BlockScratch of one thread. Columns of the model have the rows of the block as their stride.
@@ -34,6 +34,7 @@ struct BlockScratch {
   std::vector<double> gradient_dp;
   Axes slope, dev, dev_slope, all;                          ///< dg/dy; g'; dg'/dy; g with all h
   Column residual, by_y, by_residual, stress, stress_by_y;  ///< r, dr/dy, dy/dr, σ11, ∂σ11/∂y
+  Column y_again, stress_again;                             ///< what y of the row before does to y and σ11 at once
   Column start, step, before, nothing{};                    ///< y of the elastic strip; of Newton, and the one before
   std::array<double, 3> dev_before, dev_after;              ///< g' of the row before the block, and of its last one
   std::array<double, 4> seen;                               ///< y beside start in rows at equal distances, the last first
@@ -49,20 +50,31 @@ void make_room(std::vector<double>& column, std::size_t n) {
   if (column.size() < n) column.resize(n);
 }
 
-/// The polynomial of this order through the last shifts, `ahead` distances beyond the last row: Newton's backward form.
-double continued(const std::array<double, 4>& seen, std::size_t order, double ahead) {
-  std::array<double, 4> difference = seen;
-  double value = seen[0], weight = 1;
+/// Newton's backward differences up to an order, over k!; 0 beyond it.
+std::array<double, 4> differences(std::array<double, 4> seen, std::size_t order) {
+  std::array<double, 4> found{seen[0]};
+  double factorial = 1;
   for (std::size_t k = 1; k <= order; ++k) {
-    for (std::size_t j = 0; j + k < difference.size(); ++j) difference[j] -= difference[j + 1];
-    weight *= (ahead + static_cast<double>(k) - 1) / static_cast<double>(k);
-    value += weight * difference[0];
+    for (std::size_t j = 0; j + k < seen.size(); ++j) seen[j] -= seen[j + 1];
+    factorial *= static_cast<double>(k);
+    found[k] = seen[0] / factorial;
   }
-  return value;
+  return found;
+}
+/// The polynomial through the last shifts, so many distances beyond the last row.
+inline double continued(const std::array<double, 4>& by, double ahead) {
+  return by[0] + ahead * (by[1] + (ahead + 1) * (by[2] + (ahead + 2) * by[3]));
+}
+
+/// One row of columns. By name, because lanes that are written one by one go through memory.
+template <std::size_t width, std::size_t... lane>
+inline detail::Lanes<width> gathered(const std::array<const double*, width>& columns, std::size_t row,
+                                     std::index_sequence<lane...>) {
+  using Group = detail::Lanes<width>;
+  return Group(typename Group::Vector{columns[lane][row]...});
 }
 
 constexpr std::size_t distance = block / 4;
-double ahead(std::size_t row) { return static_cast<double>(row + 1) / distance; }
 
 }  // namespace
 
@@ -227,26 +239,49 @@ inline void MaxwellPath::follow() {
     s.stress[i] = 2 * (c1[i] * g1 - c3[i] * g3);
     s.stress_by_y[i] = 2 * (c1[i] * slope1 + c3[i] * (g3 - slope3));
   }
+  s.y_again[0] = s.stress_again[0] = 0;
+  std::array<Column, 3> again{};
+  for (std::size_t b = 0; b < branches; ++b) {
+    Branch& branch = s.branches[b];
+    const double* const decay = branch.relaxation.decay.data();
+    const double* const taken_up = branch.relaxation.taken.data();
+    for (std::size_t a = 0; a < 3; ++a) {
+      branch.again[a][0] = 0;
+      TUNICA_LANES
+      for (std::size_t i = 1; i < size_; ++i) {
+        branch.again[a][i] = (decay[i] * taken_up[i - 1] - taken_up[i]) * s.dev_slope[a][i - 1];
+        again[a][i] += branch.g * branch.again[a][i];
+      }
+    }
+  }
+  TUNICA_LANES
+  for (std::size_t i = 1; i < size_; ++i) {
+    s.y_again[i] = s.by_residual[i] * (c2[i] * again[1][i] - c3[i] * again[2][i]);
+    s.stress_again[i] = 2 * (c1[i] * again[0][i] - c3[i] * again[2][i]);
+  }
+  // The step of the row before is the only number that a row waits for.
   std::array<std::array<double, 3>, branches> moved{};
-  std::array<double, 3> dev_moved{};
+  double step = 0;
   for (std::size_t i = 0; i < size_; ++i) {
     std::array<double, 3> past{};
     for (std::size_t b = 0; b < branches; ++b)
       for (std::size_t a = 0; a < 3; ++a) {
-        moved[b][a] = s.branches[b].relaxation.decay[i] * moved[b][a] + s.branches[b].again[i] * dev_moved[a];
-        past[a] += s.branches[b].g * moved[b][a];
+        const double faded = s.branches[b].relaxation.decay[i] * moved[b][a];
+        past[a] += s.branches[b].g * faded;
+        moved[b][a] = faded + s.branches[b].again[a][i] * step;
       }
-    const double at_step = s.residual[i] + (c2[i] * past[1] - c3[i] * past[2]);
-    const double step = s.step[i] = newton_.take(at_step, s.by_y[i], s.by_residual[i], false, s.before[i]);
-    s.stress[i] += 2 * (c1[i] * past[0] - c3[i] * past[2]) + s.stress_by_y[i] * step;
-    for (std::size_t a = 0; a < 3; ++a) dev_moved[a] = s.dev_slope[a][i] * step;
+    const double still = (s.residual[i] + (c2[i] * past[1] - c3[i] * past[2])) * s.by_residual[i];
+    s.stress[i] += 2 * (c1[i] * past[0] - c3[i] * past[2]) + s.stress_again[i] * step;
+    step = s.step[i] = newton_.damped(still + s.y_again[i] * step, s.by_y[i], s.before[i]);
+    s.stress[i] += s.stress_by_y[i] * step;
   }
   const std::size_t last = size_ - 1;
   for (std::size_t a = 0; a < 3; ++a) {
-    s.dev_after[a] = s.dev[a][last] + dev_moved[a];
+    const double dev_moved = s.dev_slope[a][last] * step;
+    s.dev_after[a] = s.dev[a][last] + dev_moved;
     for (std::size_t b = 0; b < branches; ++b) {
       Branch& branch = s.branches[b];
-      branch.h_after[a] = branch.h[a][last] + (moved[b][a] + branch.relaxation.taken[last] * dev_moved[a]);
+      branch.h_after[a] = branch.h[a][last] + (moved[b][a] + branch.relaxation.taken[last] * dev_moved);
     }
   }
 }
@@ -288,27 +323,25 @@ inline void MaxwellPath::differentiate(std::size_t first_parameter) {
   double* const y_dp = rows_.y_dp.empty() ? nullptr : rows_.y_dp.data() + first_parameter * n_ + first_;
   for (std::size_t i = 0; i < size_; ++i) {
     std::array<Group, 3> g, dev;
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t l = 0; l < width; ++l) g[a].v[l] = columns[a][l][i];
+    for (std::size_t a = 0; a < 3; ++a) g[a] = gathered<width>(columns[a], i, std::make_index_sequence<width>());
     const double c1 = c1s[i], c2 = c2s[i], c3 = c3s[i];
     const Group work = (g[0] * Group(c1) + g[1] * Group(c2) + g[2] * Group(c3)) * elastic * Group(1.0 / 3);
     dev[0] = g[0] * elastic - work * Group(1 / c1);
     dev[1] = g[1] * elastic - work * Group(1 / c2);
     dev[2] = g[2] * elastic - work * Group(c1 * c2);
-    std::array<Group, 3> moved;
-    for (std::size_t a = 0; a < 3; ++a) moved[a] = i == 0 ? Group(0) : Group(s.dev_slope[a][i - 1]) * y;
     for (std::size_t b = 0; b < branches; ++b) {
       const Branch& branch = s.branches[b];
-      const Group decay(branch.relaxation.decay[i]), taken(branch.relaxation.taken[i]), again(branch.again[i]),
-          stiffness(branch.g);
+      const Group decay(branch.relaxation.decay[i]), taken(branch.relaxation.taken[i]), stiffness(branch.g);
       for (std::size_t a = 0; a < 3; ++a) {
-        h[b][a] = decay * h[b][a] + taken * (dev[a] - before[a]) + again * moved[a];
-        g[a] += stiffness * h[b][a];
+        const Group still = decay * h[b][a] + taken * (dev[a] - before[a]);
+        g[a] += stiffness * still;
+        h[b][a] = still + Group(branch.again[a][i]) * y;
       }
     }
-    y = (Group(c2) * g[1] - Group(c3) * g[2]) * Group(s.by_residual[i]);
-    const Group stress = Group(2 * c1) * g[0] - Group(2 * c3) * g[2] + Group(s.stress_by_y[i]) * y;
     before = dev;
+    Group stress = Group(2 * c1) * g[0] - Group(2 * c3) * g[2] + Group(s.stress_again[i]) * y;
+    y = (Group(c2) * g[1] - Group(c3) * g[2]) * Group(s.by_residual[i]) + Group(s.y_again[i]) * y;
+    stress += Group(s.stress_by_y[i]) * y;
     for (std::size_t l = 0; l < lanes; ++l) stress_dp[l * n_ + i] = stress.v[l];
     for (std::size_t l = 0; y_dp != nullptr && l < lanes; ++l) y_dp[l * n_ + i] = y.v[l];
   }
@@ -355,15 +388,15 @@ void MaxwellPath::enter() {
   for (std::size_t b = 0; b < branches_.size(); ++b) {
     Branch& branch = s.branches[b];
     branch.relaxation.set(strip_.time, first_, size_, input_.model_parameters[branches_[b].tau]);
-    branch.again[0] = 0;
-    for (std::size_t i = 1; i < size_; ++i)
-      branch.again[i] = branch.relaxation.decay[i] * branch.relaxation.taken[i - 1] - branch.relaxation.taken[i];
   }
-  for (std::size_t i = 0; i < size_; ++i) {
-    s.start[i] = y_[first_ + i];
-    s.before[i] = 0;
-    if (first_ > 0) y_[first_ + i] += continued(s.seen, order_, ahead(i));
-  }
+  std::copy_n(y_.data() + first_, size_, s.start.data());
+  s.before.fill(0);
+  if (first_ == 0) return;
+  const std::array<double, 4> by = differences(s.seen, order_);
+  detail::vectorised([by, n = size_, y = y_.data() + first_] {
+    TUNICA_LANES
+    for (std::size_t i = 0; i < n; ++i) y[i] += continued(by, static_cast<double>(static_cast<int>(i) + 1) / distance);
+  });
 }
 
 void MaxwellPath::leave() {
@@ -392,8 +425,8 @@ void MaxwellPath::leave() {
 void MaxwellPath::choose_order(double half_way, double at_end) {
   const auto& seen = thread_block().seen;
   const auto error = [&](std::size_t order) {
-    return std::max(std::abs(continued(seen, order, ahead(block / 2 - 1)) - half_way),
-                    std::abs(continued(seen, order, ahead(block - 1)) - at_end));
+    const std::array<double, 4> by = differences(seen, order);
+    return std::max(std::abs(continued(by, 2) - half_way), std::abs(continued(by, 4) - at_end));
   };
   order_ = 0;
   for (std::size_t order = 1; order < seen.size(); ++order)

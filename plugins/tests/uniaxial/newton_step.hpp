@@ -23,8 +23,12 @@ struct NewtonStep {
   double largest = 0;              ///< of all rows
   bool sound = true;               ///< no row was lost
   [[gnu::always_inline]] double take(double at_step, double slope, double by_residual, bool rests, double& before) {
-    double step = at_step * by_residual;
-    sound = sound && (rests || (slope > 0 && std::abs(step) < farthest));
+    if (rests) return before = 0;
+    return damped(at_step * by_residual, slope, before);
+  }
+  /// Of a row that does not rest.
+  [[gnu::always_inline]] double damped(double step, double slope, double& before) {
+    sound = sound && slope > 0 && std::abs(step) < farthest;
     largest = std::max(largest, std::abs(step));
     step = std::clamp(step, -0.6, 1.5);
     // Where fibres switch, steps may go to and fro across the kink.
