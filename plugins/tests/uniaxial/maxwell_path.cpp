@@ -34,6 +34,7 @@ struct BlockScratch {
   std::vector<double> gradient_dp;
   Axes slope, dev, dev_slope, all;                          ///< dg/dy; g'; dg'/dy; g with all h
   Column residual, by_y, by_residual, stress, stress_by_y;  ///< r, dr/dy, dy/dr, σ11, ∂σ11/∂y
+  Column still_stress, past_stress;                         ///< σ11 without steps; what earlier ones add
   Column y_again, stress_again;                             ///< what y of the row before does to y and σ11 at once
   Column start, step, before, nothing{};                    ///< y of the elastic strip; of Newton, and the one before
   std::array<double, 3> dev_before, dev_after;              ///< g' of the row before the block, and of its last one
@@ -66,12 +67,13 @@ inline double continued(const std::array<double, 4>& by, double ahead) {
   return by[0] + ahead * (by[1] + (ahead + 1) * (by[2] + (ahead + 2) * by[3]));
 }
 
-/// One row of columns. By name, because lanes that are written one by one go through memory.
-template <std::size_t width, std::size_t... lane>
-inline detail::Lanes<width> gathered(const std::array<const double*, width>& columns, std::size_t row,
-                                     std::index_sequence<lane...>) {
-  using Group = detail::Lanes<width>;
-  return Group(typename Group::Vector{columns[lane][row]...});
+/// One row of columns.
+template <std::size_t width>
+[[gnu::always_inline]] inline detail::Lanes<width> gathered(const std::array<const double*, width>& columns,
+                                                            std::size_t row) {
+  double lanes[width];
+  for (std::size_t l = 0; l < width; ++l) lanes[l] = columns[l][row];
+  return detail::Lanes<width>::load(lanes);
 }
 
 constexpr std::size_t distance = block / 4;
@@ -236,11 +238,11 @@ inline void MaxwellPath::follow() {
     s.residual[i] = c2[i] * g2 - c3[i] * g3;
     s.by_y[i] = c2[i] * (g2 + slope2) + c3[i] * (g3 - slope3);
     s.by_residual[i] = -1 / s.by_y[i];
-    s.stress[i] = 2 * (c1[i] * g1 - c3[i] * g3);
+    s.still_stress[i] = 2 * (c1[i] * g1 - c3[i] * g3);
     s.stress_by_y[i] = 2 * (c1[i] * slope1 + c3[i] * (g3 - slope3));
   }
   s.y_again[0] = s.stress_again[0] = 0;
-  std::array<Column, 3> again{};
+  std::array<Column, 3> again;
   for (std::size_t b = 0; b < branches; ++b) {
     Branch& branch = s.branches[b];
     const double* const decay = branch.relaxation.decay.data();
@@ -250,7 +252,7 @@ inline void MaxwellPath::follow() {
       TUNICA_LANES
       for (std::size_t i = 1; i < size_; ++i) {
         branch.again[a][i] = (decay[i] * taken_up[i - 1] - taken_up[i]) * s.dev_slope[a][i - 1];
-        again[a][i] += branch.g * branch.again[a][i];
+        again[a][i] = (b == 0 ? 0 : again[a][i]) + branch.g * branch.again[a][i];
       }
     }
   }
@@ -259,22 +261,37 @@ inline void MaxwellPath::follow() {
     s.y_again[i] = s.by_residual[i] * (c2[i] * again[1][i] - c3[i] * again[2][i]);
     s.stress_again[i] = 2 * (c1[i] * again[0][i] - c3[i] * again[2][i]);
   }
-  // The step of the row before is the only number that a row waits for.
+  if (!step_along<branches, false>()) step_along<branches, true>();
+}
+
+/// Newton's step along the rows: that of the row before is the only number that a row waits for. Undamped steps end
+/// false where one of them is to be damped.
+template <std::size_t branches, bool damped>
+inline bool MaxwellPath::step_along() {
+  BlockScratch& s = thread_block();
+  const double* const c1 = s.c.data() + strip_.loaded * size_;
+  const double* const c2 = s.c.data() + strip_.transverse * size_;
+  const double* const c3 = s.c.data() + 2 * size_;
+  newton_ = {};
   std::array<std::array<double, 3>, branches> moved{};
   double step = 0;
   for (std::size_t i = 0; i < size_; ++i) {
     std::array<double, 3> past{};
+#pragma GCC unroll 6
     for (std::size_t b = 0; b < branches; ++b)
+#pragma GCC unroll 3
       for (std::size_t a = 0; a < 3; ++a) {
         const double faded = s.branches[b].relaxation.decay[i] * moved[b][a];
         past[a] += s.branches[b].g * faded;
         moved[b][a] = faded + s.branches[b].again[a][i] * step;
       }
     const double still = (s.residual[i] + (c2[i] * past[1] - c3[i] * past[2])) * s.by_residual[i];
-    s.stress[i] += 2 * (c1[i] * past[0] - c3[i] * past[2]) + s.stress_again[i] * step;
-    step = s.step[i] = newton_.damped(still + s.y_again[i] * step, s.by_y[i], s.before[i]);
-    s.stress[i] += s.stress_by_y[i] * step;
+    s.past_stress[i] = 2 * (c1[i] * past[0] - c3[i] * past[2]) + s.stress_again[i] * step;
+    step = still + s.y_again[i] * step;
+    if constexpr (damped) step = newton_.damped(step, s.by_y[i], s.before[i]);
+    s.step[i] = step;
   }
+  if (!damped && !newton_.undamped({s.step.data(), size_}, {s.by_y.data(), size_}, {s.before.data(), size_})) return false;
   const std::size_t last = size_ - 1;
   for (std::size_t a = 0; a < 3; ++a) {
     const double dev_moved = s.dev_slope[a][last] * step;
@@ -284,6 +301,10 @@ inline void MaxwellPath::follow() {
       branch.h_after[a] = branch.h[a][last] + (moved[b][a] + branch.relaxation.taken[last] * dev_moved);
     }
   }
+  TUNICA_LANES
+  for (std::size_t i = 0; i < size_; ++i)
+    s.stress[i] = s.still_stress[i] + s.past_stress[i] + s.stress_by_y[i] * s.step[i];
+  return true;
 }
 
 /// By as many parameters from the first of them as a vector holds: at fixed y in h first, which gives y, which moves h.
@@ -323,15 +344,17 @@ inline void MaxwellPath::differentiate(std::size_t first_parameter) {
   double* const y_dp = rows_.y_dp.empty() ? nullptr : rows_.y_dp.data() + first_parameter * n_ + first_;
   for (std::size_t i = 0; i < size_; ++i) {
     std::array<Group, 3> g, dev;
-    for (std::size_t a = 0; a < 3; ++a) g[a] = gathered<width>(columns[a], i, std::make_index_sequence<width>());
+    for (std::size_t a = 0; a < 3; ++a) g[a] = gathered<width>(columns[a], i);
     const double c1 = c1s[i], c2 = c2s[i], c3 = c3s[i];
     const Group work = (g[0] * Group(c1) + g[1] * Group(c2) + g[2] * Group(c3)) * elastic * Group(1.0 / 3);
     dev[0] = g[0] * elastic - work * Group(1 / c1);
     dev[1] = g[1] * elastic - work * Group(1 / c2);
     dev[2] = g[2] * elastic - work * Group(c1 * c2);
+#pragma GCC unroll 6
     for (std::size_t b = 0; b < branches; ++b) {
       const Branch& branch = s.branches[b];
       const Group decay(branch.relaxation.decay[i]), taken(branch.relaxation.taken[i]), stiffness(branch.g);
+#pragma GCC unroll 3
       for (std::size_t a = 0; a < 3; ++a) {
         const Group still = decay * h[b][a] + taken * (dev[a] - before[a]);
         g[a] += stiffness * still;
@@ -361,7 +384,6 @@ bool MaxwellPath::solve_block(bool parameters, Status& status) {
   bool by_parameters = false;
   for (int k = 0; k < NewtonStep::most; ++k) {
     if (status = evaluate(by_parameters); !status.ok()) return false;
-    newton_ = {};
     detail::vectorised([this, by_parameters] {
       prepare();
       remember<branches>(by_parameters);
@@ -370,7 +392,9 @@ bool MaxwellPath::solve_block(bool parameters, Status& status) {
     if (!newton_.sound) return false;
     if (by_parameters && newton_.largest < NewtonStep::settled) {
       detail::vectorised([this](auto width) {
-        for (std::size_t j = 0; j < count_; j += width()) differentiate<branches, width()>(j);
+        // What is left over goes in a vector that is no wider than needed.
+        for (std::size_t j = 0; j < count_; j += count_ - j > 2 ? width() : 2)
+          count_ - j > 2 ? differentiate<branches, width()>(j) : differentiate<branches, 2>(j);
       });
       return true;
     }

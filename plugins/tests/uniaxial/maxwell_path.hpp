@@ -42,6 +42,8 @@ class MaxwellPath {
   [[gnu::always_inline]] inline void remember(bool parameters);
   template <std::size_t branches>
   [[gnu::always_inline]] inline void follow();
+  template <std::size_t branches, bool damped>
+  [[gnu::always_inline]] inline bool step_along();
   template <std::size_t branches, std::size_t width>
   [[gnu::always_inline]] inline void differentiate(std::size_t first_parameter);
 

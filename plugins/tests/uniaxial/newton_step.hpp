@@ -18,7 +18,7 @@ struct PathRows {
 struct NewtonStep {
   // Its error is the square of the step before, so that behind a step of `near` the derivatives by parameters can be
   // taken at once; they are taken again where a kink between left more than `settled`.
-  static constexpr double near = 1e-5, settled = 1e-9, farthest = 1e10;
+  static constexpr double near = 1e-5, settled = 1e-9, farthest = 1e10, least = -0.6, greatest = 1.5;
   static constexpr int most = 40;  ///< iterations
   double largest = 0;              ///< of all rows
   bool sound = true;               ///< no row was lost
@@ -30,10 +30,27 @@ struct NewtonStep {
   [[gnu::always_inline]] double damped(double step, double slope, double& before) {
     sound = sound && slope > 0 && std::abs(step) < farthest;
     largest = std::max(largest, std::abs(step));
-    step = std::clamp(step, -0.6, 1.5);
+    step = std::clamp(step, least, greatest);
     // Where fibres switch, steps may go to and fro across the kink.
     if (step * before < 0 && std::abs(step) > 0.5 * std::abs(before)) step *= 0.5;
     return before = step;
+  }
+  /// The same of many rows; false where damped() would damp one, and then nothing is noted.
+  [[gnu::always_inline]] bool undamped(std::span<const double> step, std::span<const double> slope,
+                                       std::span<double> before) {
+    double far = 0, no_slope = 0, clamped = 0, across = 0;
+    for (std::size_t i = 0; i < step.size(); ++i) {
+      const double size = std::abs(step[i]);
+      far = std::max(far, size);
+      no_slope += slope[i] > 0 && size < farthest ? 0 : 1;
+      clamped += step[i] >= least && step[i] <= greatest ? 0 : 1;
+      across += step[i] * before[i] < 0 && size > 0.5 * std::abs(before[i]) ? 1 : 0;
+    }
+    if (clamped + across > 0) return false;
+    std::copy(step.begin(), step.end(), before.begin());
+    largest = std::max(largest, far);
+    sound = sound && no_slope == 0;
+    return true;
   }
 };
 

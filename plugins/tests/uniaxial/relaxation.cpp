@@ -8,12 +8,12 @@
 namespace tunica::uniaxial {
 namespace {
 
-/// 1 − e^{−x} without cancellation: by its series Σ (−1)^k x^{k+1}/(k+1)! below 0.35, to 1e-17.
+/// 1 − e^{−x}, where cancellation would cost digits by its series Σ (−1)^k x^{k+1}/(k+1)!, to 3e-16.
 inline double lost_after(double x) {
   double series = 0;
-  for (int k = 13; k >= 1; --k) series = x * (1.0 / k) * (1 - series);
+  for (int k = 9; k >= 1; --k) series = x * (1.0 / k) * (1 - series);
   const double plain = 1 - detail::lane_exp(-x);
-  return x < 0.35 ? series : plain;
+  return x < 0.1 ? series : plain;
 }
 
 }  // namespace

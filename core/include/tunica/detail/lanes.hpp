@@ -90,8 +90,13 @@ struct Lanes {
   Vector v;
 
   [[gnu::always_inline]] Lanes() : v{} {}
-  /// The same number in every lane.
-  [[gnu::always_inline]] Lanes(double x) : v(x - Vector{}) {}
+  /// The same number in every lane. From an array the compiler makes one broadcast; an operation on vectors it would
+  /// take apart before it knows the level, and write lane by lane.
+  [[gnu::always_inline]] Lanes(double x) {
+    double same[width];
+    for (std::size_t l = 0; l < width; ++l) same[l] = x;
+    std::memcpy(&v, same, sizeof v);
+  }
   [[gnu::always_inline]] explicit Lanes(const Vector& x) : v(x) {}
   // Written out, so that what holds lanes is copied vector by vector, and not as a block of memory.
   [[gnu::always_inline]] Lanes(const Lanes& x) : v(x.v) {}
