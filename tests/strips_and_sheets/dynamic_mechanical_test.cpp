@@ -20,7 +20,7 @@ using Column = std::pair<std::string, std::vector<double>>;
 
 struct Dma {
   std::string mode = "tension", direction = "circumferential", normal = "axial", shift = "none";
-  double static_stretch = 1, reference = 0;
+  double static_stretch = 1, reference = 0, amplitude = 0;
   std::vector<std::string> channels = {"storage_modulus", "loss_modulus"};
 };
 std::unique_ptr<Test> make_dma(const std::vector<Column>& columns, const Dma& dma = {}) {
@@ -30,6 +30,7 @@ std::unique_ptr<Test> make_dma(const std::vector<Column>& columns, const Dma& dm
   setup.options.set("normal", dma.normal);
   setup.options.set("shift", dma.shift);
   setup.options.set("static_stretch", dma.static_stretch);
+  setup.options.set("strain_amplitude", dma.amplitude);
   setup.options.set("reference_temperature", dma.reference);
   setup.rows.count = columns.front().second.size();
   for (const auto& [name, values] : columns) setup.rows.abscissae.push_back({name, values});
@@ -135,6 +136,98 @@ TEST(DynamicMechanical, IsWhatAStripShowsThatOscillatesInTime) {
   EXPECT_NEAR(ahead / amplitude, values[1], 1e-5 * values[0]);
 }
 
+// σ1 = μγ + h_ab + γ h_bb, where S'_ab = μ (γ + γ³/3) and S'_bb = −μγ²/3. With γ = A sin ωt the first harmonic of the
+// one is μA (1 + A²/4), the second one of the other μA²/6, and H_n = Σ g inωτ/(1 + inωτ) makes h of the n-th:
+//
+//   G*(A) = μ (1 + (1 + A²/4) H_1 − (A²/12) H_2)
+TEST(LargeOscillation, InShearIsTheClosedFormOfAPronySeries) {
+  const std::vector<double> branches{0.8, 5, 0.3, 60, 0.5, 0.02};
+  std::vector<double> p{12};
+  p.insert(p.end(), branches.begin(), branches.end());
+  const auto model = viscous("neo_hooke", 3);
+  const std::vector<double> at{1e-5, 1e-3, 0.01, 0.1, 1, 10, 1e3};
+  for (const double amplitude : {0.05, 0.5, 1.5}) {
+    const auto values = values_of(*make_dma({{"frequency", at}}, {.mode = "shear", .amplitude = amplitude}), *model, p);
+    const double square = amplitude * amplitude;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const Complex first = series(at[i], branches) - 1.0, second = series(2 * at[i], branches) - 1.0;
+      const Complex expected = 12.0 * (1.0 + (1 + square / 4) * first - square / 12 * second);
+      EXPECT_NEAR(values[i], expected.real(), 3e-5 * std::abs(expected)) << amplitude << ", " << at[i] << " Hz";
+      EXPECT_NEAR(values[at.size() + i], expected.imag(), 3e-5 * std::abs(expected)) << amplitude << ", " << at[i];
+    }
+  }
+}
+
+// P = μ (λ − λ⁻²) without memory; its first harmonic by a finer sum.
+TEST(LargeOscillation, WithoutMemoryIsTheFirstHarmonicOfTheStaticCurve) {
+  constexpr double mu = 12, stretch = 1.4, amplitude = 0.3;
+  double expected = 0;
+  constexpr int parts = 1000;
+  for (int k = 0; k < parts; ++k) {
+    const double sine = std::sin(2 * std::numbers::pi * k / parts), at = stretch + amplitude * sine;
+    expected += mu * (at - 1 / (at * at)) * sine * 2 / (parts * amplitude);
+  }
+  const auto values = values_of(*make_dma({{"frequency", {1}}}, {.static_stretch = stretch, .amplitude = amplitude}),
+                                *make_model("neo_hooke"), {mu});
+  EXPECT_NEAR(values[0], expected, 1e-9 * expected);
+  EXPECT_NEAR(values[1], 0, 1e-9 * expected);
+}
+
+// Moduli are even in the amplitude: half of it leaves a quarter of the difference.
+TEST(LargeOscillation, ConvergesToTheSmallOneWithTheSquareOfTheAmplitude) {
+  const std::vector<double> gho{18.668, 0.1367, 24.905, 0.2912, 46.44, 0.8, 2, 0.3, 0.5};
+  const std::vector<double> neo_hooke{12, 0.8, 2, 0.3, 0.5}, amplitudes{0.08, 0.04, 0.02, 0};
+  for (const auto& [type, p, mode, stretch] :
+       {std::tuple("gho", gho, "tension", 1.3), std::tuple("neo_hooke", neo_hooke, "tension", 1.3),
+        std::tuple("neo_hooke", neo_hooke, "shear", 1.0)}) {
+    const auto test = make_dma({{"frequency", {0.1, 0.1, 0.1, 0.1}}, {"strain_amplitude", amplitudes}},
+                               {.mode = mode, .static_stretch = stretch});
+    const auto values = values_of(*test, *viscous(type, 2), p);
+    const auto off = [&](std::size_t i) { return Complex(values[i] - values[3], values[4 + i] - values[7]); };
+    const double size = std::hypot(values[3], values[7]);
+    EXPECT_GT(std::abs(off(0)), 1e-4 * size) << type << " " << mode << " tells amplitudes apart";
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_NEAR(std::abs(off(i)) / std::abs(off(i + 1)), 4, 0.3) << type << " " << mode << ", " << amplitudes[i];
+  }
+}
+
+TEST(LargeOscillation, IsWhatAStripShowsThatOscillatesInTime) {
+  // The first harmonic of the last of many periods, in finer steps than those of the test.
+  constexpr double stretch = 1.3, amplitude = 0.2, frequency = 0.1;
+  const std::vector<double> p{18.668, 0.1367, 24.905, 0.2912, 46.44, 0.8, 2, 0.3, 0.5};
+  constexpr std::size_t per_period = 1000, periods = 12;
+  std::vector<double> lambda{stretch}, time{1e6};  // settled before
+  for (std::size_t k = 1; k <= per_period * periods; ++k) {
+    const double t = double(k) / (per_period * frequency);
+    time.push_back(1e6 + t);
+    lambda.push_back(stretch + amplitude * std::sin(2 * std::numbers::pi * frequency * t));
+  }
+  const auto model = viscous("gho", 2);
+  const auto strip = make_strip(lambda, {.measure = "first_piola_kirchhoff", .time = time});
+  const auto stress = predict(*strip, *model, p).values;
+  Complex expected;
+  for (std::size_t k = 0; k < per_period; ++k) {
+    const std::size_t row = per_period * (periods - 1) + 1 + k;
+    const double phase = 2 * std::numbers::pi * frequency * (time[row] - 1e6);
+    expected += Complex(std::sin(phase), std::cos(phase)) * (stress[row] * 2 / (per_period * amplitude));
+  }
+  const auto values = values_of(
+      *make_dma({{"frequency", {frequency}}}, {.static_stretch = stretch, .amplitude = amplitude}), *model, p);
+  EXPECT_NEAR(values[0], expected.real(), 2e-5 * std::abs(expected));
+  EXPECT_NEAR(values[1], expected.imag(), 2e-5 * std::abs(expected));
+}
+
+TEST(LargeOscillation, HasAModulusWhereTheMaterialSoftens) {
+  // Behind the first cycle all is elastic. Softening spares the largest load and lowers the smaller ones, so that the
+  // curve between them is steeper.
+  const auto& mechanism = catalogue().mechanisms().at("stress_softening");
+  const auto model = plugins::wrap(mechanism, make_model("neo_hooke"), defaults(mechanism.factory.options));
+  const auto test = make_dma({{"frequency", {1}}}, {.static_stretch = 1.3, .amplitude = 0.2});
+  const auto soft = values_of(*test, *model, {20, 0.3, 0.5}), bare = values_of(*test, *make_model("neo_hooke"), {20});
+  EXPECT_GT(soft[0], 1.01 * bare[0]);
+  EXPECT_NEAR(soft[1], 0, 1e-9 * soft[0]);
+}
+
 TEST(DynamicMechanical, ShiftsFrequenciesWithTheTemperature) {
   const std::vector<double> at{0.5, 0.5, 0.5}, T{280, 300, 330}, p{12, 0.8, 0.3};
   const auto model = viscous("neo_hooke", 1);
@@ -212,6 +305,13 @@ TEST(DynamicMechanical, SaysWhatIsWrongWithAProtocol) {
   EXPECT_THAT(refusal({{"frequency", {1}}}, {.mode = "shear", .normal = "circumferential"}), HasSubstr("are the same"));
   EXPECT_THAT(refusal({{"frequency", {1}}, {"static_stretch", {1.2}}}, {.static_stretch = 1.2}),
               HasSubstr("is an option and a column"));
+  EXPECT_THAT(refusal({{"frequency", {1}}, {"strain_amplitude", {0.1}}}, {.amplitude = 0.1}),
+              HasSubstr("\"strain_amplitude\" is an option and a column"));
+  EXPECT_THAT(refusal({{"frequency", {1, 1}}, {"strain_amplitude", {0, -0.1}}}),
+              HasSubstr("row 2 has the strain amplitude -0.100000; expected 0"));
+  EXPECT_THAT(
+      refusal({{"frequency", {1}}, {"strain_amplitude", {5}}}),
+      HasSubstr("row 1 has the strain amplitude 5.000000 about the stretch 1.000000; expected an amplitude below"));
 }
 
 }  // namespace

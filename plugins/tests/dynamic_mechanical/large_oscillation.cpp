@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include <Eigen/QR>
+#include "tunica/detail/vector_math.hpp"
 
 namespace tunica::dynamic_mechanical {
 namespace {
@@ -15,25 +15,9 @@ using Complex = std::complex<double>;
 
 constexpr int newton_iterations = 40;
 constexpr double last_step = 1e-7;  ///< of y, taken to first order
-constexpr std::size_t round = 5;    ///< cycles from which the limit is extrapolated
-constexpr int rounds = 12;
-constexpr double alike = 1e-9;  ///< moduli of two rounds, relative
-
-/// The limit of s_0, s_1, …: Σ γ_j s_j with Σ γ_j = 1 and the least Σ γ_j (s_{j+1} − s_j). Each of them is one column.
-Eigen::VectorXd limit_of(const Eigen::MatrixXd& s) {
-  const Eigen::Index k = s.cols() - 2;
-  const Eigen::MatrixXd first = s.middleCols(1, k + 1) - s.leftCols(k + 1);
-  // γ = (1 − ξ_0, ξ_0 − ξ_1, …): s_0 + Σ ξ_j u_j, where u_0 + Σ ξ_j (u_{j+1} − u_j) is least.
-  const Eigen::MatrixXd second = first.rightCols(k) - first.leftCols(k);
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least;
-  least.setThreshold(1e-12);
-  const Eigen::VectorXd xi = least.compute(second).solve(-first.col(0));
-  return s.col(0) + first.leftCols(k) * xi;
-}
-
-bool finite(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-}
+constexpr int most_cycles = 60;
+constexpr double alike = 1e-10;      ///< moduli of two cycles, relative
+constexpr double state_part = 1e-4;  ///< of differences by the state, relative; branches are linear in it
 
 }  // namespace
 
@@ -58,9 +42,9 @@ void LargeOscillation::place(std::size_t n, std::size_t i, double strain) {
 }
 
 /// From the state before to the strain at this phase: the nominal stress of each row, and the state after.
-bool LargeOscillation::step(std::span<const Row> rows, std::size_t steps, double sine) {
+bool LargeOscillation::step(std::span<const Row> rows, std::size_t per_cycle, double sine) {
   const std::size_t n = rows.size(), m = model_.describe().history_size;
-  for (std::size_t i = 0; i < n; ++i) time_[i] = rows[i].period / static_cast<double>(steps);
+  for (std::size_t i = 0; i < n; ++i) time_[i] = rows[i].period / static_cast<double>(per_cycle);
   const std::span<const double> time = m > 0 ? std::span<const double>(time_) : std::span<const double>();
   for (int k = 0; k < newton_iterations; ++k) {
     for (std::size_t i = 0; i < n; ++i) place(n, i, rows[i].centre + rows[i].amplitude * sine);
@@ -74,7 +58,7 @@ bool LargeOscillation::step(std::span<const Row> rows, std::size_t steps, double
         S[c] = stress_[c * n + i];
         C[c] = C_[c * n + i];
       }
-      if (!finite(S)) return !fails(i, "the stress is not finite");
+      if (!detail::all_finite(S.data(), S.size())) return !fails(i, "the stress is not finite");
       if (specimen_.shear) {
         nominal_[i] = S[specimen_.sheared()] + strain * S[specimen_.normal];
         continue;
@@ -99,27 +83,62 @@ bool LargeOscillation::step(std::span<const Row> rows, std::size_t steps, double
 }
 
 /// One cycle from the state at its beginning. `guess`: y of the cycle before at each phase, or empty.
-bool LargeOscillation::cycle(std::span<const Row> rows, std::size_t steps, std::vector<double>& guess,
+bool LargeOscillation::cycle(std::span<const Row> rows, std::size_t per_cycle, std::vector<double>& guess,
                              std::span<Complex> found) {
   const std::size_t n = rows.size();
   const bool first = guess.empty();
-  guess.resize(n * steps);
+  guess.resize(n * per_cycle);
   std::fill(found.begin(), found.end(), Complex());
-  for (std::size_t k = 1; k <= steps; ++k) {
-    const double phase = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(steps);
+  for (std::size_t k = 1; k <= per_cycle; ++k) {
+    const double phase = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(per_cycle);
     double* const here = guess.data() + n * (k - 1);
     if (!first) std::copy_n(here, n, y_.data());
-    if (!step(rows, steps, std::sin(phase))) return false;
+    if (!step(rows, per_cycle, std::sin(phase))) return false;
     std::copy_n(y_.data(), n, here);
     const Complex weight(std::sin(phase), std::cos(phase));
     for (std::size_t i = 0; i < n; ++i)
-      found[i] += weight * (nominal_[i] * 2 / (static_cast<double>(steps) * rows[i].amplitude));
+      found[i] += weight * (nominal_[i] * 2 / (static_cast<double>(per_cycle) * rows[i].amplitude));
   }
   return true;
 }
 
-/// M* once it stays from round to round.
-bool LargeOscillation::settled(std::span<const Row> rows, std::size_t steps, std::span<Complex> found) {
+/// What one period at rest leaves of a change of the state: P. Of branches it is what a cycle leaves, whatever its
+/// path.
+bool LargeOscillation::forget(std::span<const Row> rows) {
+  const std::size_t m = model_.describe().history_size, n = 2 * m;
+  left_.clear();
+  if (m == 0) return true;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    std::vector<double> C(6 * n), state(m * n), stress(6 * n), after(m * n), moved(m);
+    const std::vector<double> time(n, row.period);
+    double scale = 0;
+    for (const double s : row.state) scale = std::max(scale, std::abs(s));
+    if (scale == 0) scale = 1;
+    for (std::size_t c = 0; c < 6; ++c) std::fill_n(C.begin() + static_cast<std::ptrdiff_t>(c * n), n, row.C[c]);
+    for (std::size_t k = 0; k < m; ++k) {
+      std::fill_n(state.begin() + static_cast<std::ptrdiff_t>(k * n), n, row.state[k]);
+      moved[k] = state_part * std::max(std::abs(row.state[k]), scale);
+      state[k * n + 2 * k] += moved[k];
+      state[k * n + 2 * k + 1] -= moved[k];
+    }
+    const Status status = model_.evaluate({n, C, parameters_, time, state}, {{}, stress, {}, {}, after});
+    if (!status.ok()) return !fails(i, status.reason());
+    if (!detail::all_finite(after.data(), after.size())) return !fails(i, "the state of the model is not finite");
+    Eigen::MatrixXd kept = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(m));
+    for (std::size_t c = 0; c < m; ++c)
+      for (std::size_t k = 0; k < m; ++k)
+        kept(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)) -=
+            (after[c * n + 2 * k] - after[c * n + 2 * k + 1]) / (2 * moved[k]);
+    left_.emplace_back().setThreshold(1e-12);
+    left_.back().compute(kept);
+  }
+  return true;
+}
+
+/// Newton's method for the state s that a cycle Φ(s) comes back to: s + (1 − P)⁻¹ (Φ(s) − s). What a cycle never
+/// forgets, as the largest load so far, has no step.
+bool LargeOscillation::settled(std::span<const Row> rows, std::size_t per_cycle, std::span<Complex> found) {
   const std::size_t n = rows.size(), m = model_.describe().history_size;
   for (auto* const column : {&time_, &y_, &nominal_}) column->resize(n);
   for (auto* const column : {&C_, &stress_}) column->resize(6 * n);
@@ -132,35 +151,38 @@ bool LargeOscillation::settled(std::span<const Row> rows, std::size_t steps, std
   std::vector<double> guess;
   std::vector<Complex> before(n);
   // The first cycle ends what a first loading alone does.
-  if (!cycle(rows, steps, guess, found)) return false;
+  if (!cycle(rows, per_cycle, guess, found)) return false;
   if (m == 0) return true;
-  std::vector<Eigen::MatrixXd> states(n, Eigen::MatrixXd(m, round + 1));
-  for (int k = 0; k < rounds; ++k) {
-    for (std::size_t j = 0; j <= round; ++j) {
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t c = 0; c < m; ++c)
-          states[i](static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(j)) = state_[c * n + i];
-      if (j < round && !cycle(rows, steps, guess, found)) return false;
-    }
-    std::size_t apart = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      if (apart == i && std::abs(found[i] - before[i]) <= alike * std::abs(found[i])) ++apart;
-    if (apart == n) return true;
-    failed_row_ = apart;
+  for (int k = 0; k < most_cycles; ++k) {
+    const std::vector<double> begin = state_;
     std::copy(found.begin(), found.end(), before.begin());
+    if (!cycle(rows, per_cycle, guess, found)) return false;
+    const auto apart = std::find_if(found.begin(), found.end(), [&](const Complex& now) {
+      const Complex& last = before[static_cast<std::size_t>(&now - found.data())];
+      return !(std::abs(now - last) <= alike * std::abs(now));
+    });
+    if (apart == found.end()) return true;
+    failed_row_ = static_cast<std::size_t>(apart - found.begin());
     for (std::size_t i = 0; i < n; ++i) {
-      const Eigen::VectorXd limit = limit_of(states[i]);
-      if (!limit.allFinite()) continue;
-      for (std::size_t c = 0; c < m; ++c) state_[c * n + i] = limit[static_cast<Eigen::Index>(c)];
+      Eigen::VectorXd change(static_cast<Eigen::Index>(m));
+      for (std::size_t c = 0; c < m; ++c) change[static_cast<Eigen::Index>(c)] = state_[c * n + i] - begin[c * n + i];
+      const Eigen::VectorXd move = left_[i].solve(change);
+      for (std::size_t c = 0; c < m; ++c) state_[c * n + i] = begin[c * n + i] + move[static_cast<Eigen::Index>(c)];
     }
   }
   return !fails(failed_row_, "its cycles do not settle");
 }
 
+/// What steps make of a small oscillation is known, and taken off; the rest falls with their square.
 bool LargeOscillation::moduli(std::span<const Row> rows, std::span<Complex> found) {
-  std::vector<Complex> coarse(rows.size());
-  if (!settled(rows, steps, coarse) || !settled(rows, 2 * steps, found)) return false;
-  for (std::size_t i = 0; i < rows.size(); ++i) found[i] += (found[i] - coarse[i]) / 3.0;
+  const std::size_t n = rows.size();
+  std::vector<Complex> coarse(n);
+  if (!forget(rows) || !settled(rows, steps, coarse) || !settled(rows, 2 * steps, found)) return false;
+  for (std::size_t i = 0; i < n; ++i) {
+    coarse[i] -= rows[i].excess[0];
+    found[i] -= rows[i].excess[1];
+    found[i] += (found[i] - coarse[i]) / 3.0;
+  }
   return true;
 }
 

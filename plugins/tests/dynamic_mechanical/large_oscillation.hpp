@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/QR>
+
 #include "small_oscillation.hpp"
 
 namespace tunica::dynamic_mechanical {
@@ -49,17 +51,19 @@ struct StripSlopes {
 /// the first harmonic of the nominal stress, of the shear stress σ_ab = S_ab + γ S_bb (Hyun et al., Prog. Polym. Sci.
 /// 36:1697, 2011, §2.2). As A → 0 it is the modulus of SmallOscillation, with an error of A².
 ///
-/// Cycles go in `steps` and in twice as many steps of the model, and M* is extrapolated from both; what is left is of
-/// the fourth power of the step. From cycle to cycle the state moves towards its limit by few rates, those of the
-/// branches, so that the limit is extrapolated (reduced rank, Sidi 2017, Vector Extrapolation Methods, §2).
+/// Cycles go in `steps` and in twice as many steps of the model, and M* is extrapolated from both. Newton's method
+/// finds the state that a cycle comes back to, also where branches forget over thousands of cycles.
 ///
-/// Memory and time: the state of all rows, times the cycles of a round. Threads: one a call.
+/// Threads: one a call.
 class LargeOscillation {
  public:
+  static constexpr std::size_t steps = 64;
   struct Row {
-    double period, centre, amplitude;  ///< s; λ_0, of shear 0; A
-    double y;                          ///< ln λ2² of the static strip
-    std::vector<double> state;         ///< of the model in the static strip
+    double period, centre, amplitude;              ///< s; λ_0, of shear 0; A
+    double y;                                      ///< ln λ2² of the static strip
+    Tensor C;                                      ///< of the static state
+    std::vector<double> state;                     ///< of the model in it
+    std::array<std::complex<double>, 2> excess{};  ///< of a small oscillation in `steps`, and in twice as many; kPa
   };
   /// Model and parameters outlive this.
   LargeOscillation(const Model& model, std::span<const double> parameters, const Specimen& specimen)
@@ -71,11 +75,11 @@ class LargeOscillation {
   [[nodiscard]] std::size_t failed_row() const { return failed_row_; }
 
  private:
-  static constexpr std::size_t steps = 32;
-  bool settled(std::span<const Row> rows, std::size_t steps, std::span<std::complex<double>> found);
-  bool cycle(std::span<const Row> rows, std::size_t steps, std::vector<double>& guess,
+  bool forget(std::span<const Row> rows);
+  bool settled(std::span<const Row> rows, std::size_t per_cycle, std::span<std::complex<double>> found);
+  bool cycle(std::span<const Row> rows, std::size_t per_cycle, std::vector<double>& guess,
              std::span<std::complex<double>> found);
-  bool step(std::span<const Row> rows, std::size_t steps, double sine);
+  bool step(std::span<const Row> rows, std::size_t per_cycle, double sine);
   void place(std::size_t n, std::size_t i, double strain);
   bool fails(std::size_t row, std::string why);
 
@@ -84,6 +88,7 @@ class LargeOscillation {
   Specimen specimen_;
   std::string failure_;
   std::size_t failed_row_ = 0;
+  std::vector<Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>> left_;  ///< 1 − P of each row
   // Structures of arrays over the rows.
   std::vector<double> C_, stress_, tangent_, time_, state_, after_, y_, nominal_;
 };

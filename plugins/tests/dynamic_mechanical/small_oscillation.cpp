@@ -10,7 +10,6 @@ namespace tunica::dynamic_mechanical {
 namespace {
 
 constexpr double long_ago = 1e30;     ///< s: whatever relaxes has done so
-constexpr double part = 3e-5;         ///< ωΔt
 constexpr double strain_step = 1e-3;  ///< of differences by C
 constexpr double state_step = 1e-4;   ///< of differences by the state, relative; branches are linear in it
 /// Differences by C are those of four points, with errors of the fourth power: slow branches magnify rounding by
@@ -95,8 +94,8 @@ bool SmallOscillation::bends_without_memory(std::span<const double> C, std::size
          bends(stress_, stress, n, first, count);
 }
 
-bool SmallOscillation::respond(double omega, std::span<const Tensor> directions,
-                               std::span<ComplexTensor> changes) const {
+bool SmallOscillation::respond(double omega, std::span<const Tensor> directions, std::span<ComplexTensor> changes,
+                               double part) const {
   const std::size_t m = state_.size(), d = directions.size();
   two_slopes_ = false;
   if (m == 0) {

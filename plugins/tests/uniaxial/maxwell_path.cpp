@@ -38,7 +38,7 @@ struct BlockScratch {
   Column y_again, stress_again;                             ///< what y of the row before does to y and σ11 at once
   Column start, step, before, nothing{};                    ///< y of the elastic strip; of Newton, and the one before
   std::array<double, 3> dev_before, dev_after;              ///< g' of the row before the block, and of its last one
-  std::array<double, 4> seen;                               ///< y beside start in rows at equal distances, the last first
+  std::array<double, 4> seen;  ///< y beside start in rows at equal distances, the last first
   std::array<Branch, most> branches;
   std::vector<double> memory_dp, dev_dp_before;  ///< derivatives of h and of g' at the row before, [·][parameter]
 };
@@ -291,7 +291,8 @@ inline bool MaxwellPath::step_along() {
     if constexpr (damped) step = newton_.damped(step, s.by_y[i], s.before[i]);
     s.step[i] = step;
   }
-  if (!damped && !newton_.undamped({s.step.data(), size_}, {s.by_y.data(), size_}, {s.before.data(), size_})) return false;
+  if (!damped && !newton_.undamped({s.step.data(), size_}, {s.by_y.data(), size_}, {s.before.data(), size_}))
+    return false;
   const std::size_t last = size_ - 1;
   for (std::size_t a = 0; a < 3; ++a) {
     const double dev_moved = s.dev_slope[a][last] * step;
@@ -393,7 +394,7 @@ bool MaxwellPath::solve_block(bool parameters, Status& status) {
     if (by_parameters && newton_.largest < NewtonStep::settled) {
       detail::vectorised([this](auto width) {
         // What is left over goes in a vector that is no wider than needed.
-        for (std::size_t j = 0; j < count_; j += count_ - j > 2 ? width() : 2)
+        for (std::size_t j = 0; j<count_; j += count_ - j> 2 ? width() : 2)
           count_ - j > 2 ? differentiate<branches, width()>(j) : differentiate<branches, 2>(j);
       });
       return true;
@@ -425,15 +426,15 @@ void MaxwellPath::enter() {
 
 void MaxwellPath::leave() {
   BlockScratch& s = thread_block();
-  detail::vectorised([&s, n = size_, y = y_.data() + first_, u = rows_.u.data() + first_,
-                      stress = rows_.stress.data() + first_] {
-    TUNICA_LANES
-    for (std::size_t i = 0; i < n; ++i) {
-      y[i] += s.step[i];
-      u[i] = detail::lane_exp(y[i]);
-      stress[i] = s.stress[i];
-    }
-  });
+  detail::vectorised(
+      [&s, n = size_, y = y_.data() + first_, u = rows_.u.data() + first_, stress = rows_.stress.data() + first_] {
+        TUNICA_LANES
+        for (std::size_t i = 0; i < n; ++i) {
+          y[i] += s.step[i];
+          u[i] = detail::lane_exp(y[i]);
+          stress[i] = s.stress[i];
+        }
+      });
   s.dev_before = s.dev_after;
   for (Branch& branch : s.branches) {
     branch.h_before = branch.h_after;

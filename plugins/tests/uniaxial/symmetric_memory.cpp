@@ -84,8 +84,8 @@ bool remember_symmetric(const Strip& strip, const TestInput& input, std::span<co
                        .stress_dp = {m.stress_dp.data(), derivatives}};
   if (!free_strip::solve_symmetric({elastic, parameters, strip.loaded}, path, scratch, status)) return false;
   if (!status.ok()) return true;
-  detail::vectorised([n, l = m.stretch.data(), c1 = m.inverse_c1.data(), c3 = m.inverse_c3.data(),
-                      w1 = m.first.data(), w3 = m.through.data()] {
+  detail::vectorised([n, l = m.stretch.data(), c1 = m.inverse_c1.data(), c3 = m.inverse_c3.data(), w1 = m.first.data(),
+                      w3 = m.through.data()] {
     TUNICA_LANES
     for (std::size_t i = 0; i < n; ++i) {
       const double inverse = 1 / l[i];
