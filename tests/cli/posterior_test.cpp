@@ -15,6 +15,7 @@
 
 using namespace tunica;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(PosteriorOfARun, IsDrawnAlsoWhenTheRunHasFinished) {
   trial::Bench bench;
@@ -151,6 +152,42 @@ TEST(PosteriorOfARun, DrawsAgainAfterADamagedStep) {
   char& digit = damaged[damaged.find("\n1,550,") + 9];
   digit = digit == '7' ? '8' : '7';
   run.bench.folder.write(run.steps, damaged);
+  ASSERT_EQ(run.resume().code, 0);
+  EXPECT_TRUE(run.bench.text(run.file) == run.draws);
+  EXPECT_EQ(trial::without_times(run.bench.result("out")), run.result);
+}
+
+// Steps of another program, or of other plugins, are not those that this one would make.
+TEST(PosteriorOfARun, DrawsAgainWhatAnotherProgramDrew) {
+  KilledRun run;
+  std::string other = run.bench.text(run.steps);
+  const auto name = other.find("# tunica ");
+  ASSERT_EQ(name, 0u) << other.substr(0, 80);
+  EXPECT_THAT(other.substr(0, other.find('\n')), HasSubstr("ceres_lm "));
+  other.replace(9, 1, "9");
+  run.bench.folder.write(run.steps, other);
+  run.change(3, 3, "0.123");  // a step that is not drawn again would keep it
+  ASSERT_EQ(run.resume().code, 0);
+  EXPECT_TRUE(run.bench.text(run.file) == run.draws);
+  EXPECT_THAT(run.bench.text(run.steps), Not(HasSubstr(",0.123,")));
+}
+
+TEST(PosteriorOfARun, SaysWhatAFullDiskKeptAndGoesOnFromThere) {
+  KilledRun run;
+  const std::size_t whole = run.bench.text(run.steps).size();
+  run.bench.folder.write(run.steps, "");
+  // No file of this process beyond 200 KiB: the tables fit, the steps do not. That is what a full disk looks like;
+  // counts of lines go nowhere.
+  ASSERT_GT(whole, 204'800u);
+  std::string line = "ulimit -f 200; GCOV_PREFIX=/dev/null";
+  for (const auto& word : trial::tunica_command({"run", "experiment.json", "-o", "out", "--resume"}))
+    line += " '" + word + "'";
+  const auto stopped = trial::Process({"/bin/bash", "-c", line}, run.bench.folder.path()).wait();
+  EXPECT_EQ(stopped.code, 130) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr("posterior_steps_"));
+  EXPECT_THAT(stopped.err, HasSubstr("cannot write: "));
+  EXPECT_THAT(stopped.err, HasSubstr(" steps of the chains are kept there. Then go on with"));
+  EXPECT_THAT(stopped.err, HasSubstr("--resume"));
   ASSERT_EQ(run.resume().code, 0);
   EXPECT_TRUE(run.bench.text(run.file) == run.draws);
   EXPECT_EQ(trial::without_times(run.bench.result("out")), run.result);

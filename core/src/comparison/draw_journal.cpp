@@ -16,6 +16,8 @@ namespace {
 using posterior::Step;
 using Steps = std::vector<std::vector<Step>>;
 
+constexpr std::string_view cannot_write = "cannot write: ";
+
 std::string header(const std::string& question, std::size_t parameters) {
   std::string text = "# " + question + "\nchain,step,log_density,acceptance,size,random,simulations,failed";
   for (std::size_t j = 1; j <= parameters; ++j) text += fmt::format(",z_{}", j);
@@ -53,7 +55,7 @@ bool take(std::string_view line, std::size_t parameters, Steps& steps) {
 
 Steps DrawJournal::recall(const std::string& question, std::size_t chains, std::size_t parameters) {
   Steps steps(chains);
-  const std::string begin = header(question, parameters);
+  const std::string begin = header(program_ + "; " + question, parameters);
   appended_ = execution::AppendFile(file_);
   const std::string text = execution::read_text(file_);
   std::size_t whole = text.starts_with(begin) ? begin.size() : 0;
@@ -65,6 +67,7 @@ Steps DrawJournal::recall(const std::string& question, std::size_t chains, std::
   for (std::size_t end = 0; (end = text.find('\n', whole)) != std::string::npos; whole = end + 1)
     if (!take(std::string_view(text).substr(whole, end - whole), parameters, steps)) break;
   if (whole < text.size()) appended_.cut(whole);
+  for (const auto& own : steps) kept_ += own.size();
   return steps;
 }
 
@@ -75,19 +78,34 @@ void DrawJournal::keep(std::size_t chain, std::size_t index, const Step& step) {
   for (const double z : step.z) line += fmt::format(",{}", z);
   line += ',' + execution::checksum(line) + '\n';
   const std::lock_guard lock(mutex_);
+  if (failure_.any()) return;
   text_ += line;
+  ++waiting_;
   const auto now = std::chrono::steady_clock::now();
-  if (now - written_ < patience || failure_.any()) return;
+  if (now - written_ < patience) return;
   written_ = now;
-  failure_.guard([&] { appended_.append(text_); });
+  failure_.guard([&] { write(); });
+}
+
+/// What a write that fails leaves of a line, recall() cuts off.
+void DrawJournal::write() {
+  try {
+    appended_.append(text_);
+  } catch (const execution::WriteFailure& problem) {
+    std::string why = problem.what();
+    if (const auto found = why.find(cannot_write); found != std::string::npos)
+      why.erase(0, found + cannot_write.size());
+    throw execution::WriteFailure(file_, fmt::format("{}. {} steps of the chains are kept there", why, kept_));
+  }
+  kept_ += waiting_;
+  waiting_ = 0;
   text_.clear();
 }
 
 void DrawJournal::finish() {
   failure_.rethrow();
   if (!appended_.is_open()) return;
-  appended_.append(text_);
-  text_.clear();
+  write();
   appended_.sync();
 }
 

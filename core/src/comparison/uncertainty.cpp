@@ -6,15 +6,18 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "comparison/draw_journal.hpp"
 #include "comparison/fit_table.hpp"
 #include "comparison/posterior_output.hpp"
+#include "comparison/provenance.hpp"
 #include "comparison/uncertainty_tables.hpp"
 #include "comparison/uncertainty_words.hpp"
 #include "data/nearest.hpp"
 #include "plugins/default_options.hpp"
 #include "plugins/limited_work.hpp"
+#include "tunica/detail/vector_level.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 #include "uncertainty/bootstrap.hpp"
@@ -40,6 +43,12 @@ uncertainty::LocalOptimizer local_optimizer(const experiment::Experiment& experi
   Options options = plugins::default_options(refiner->factory.options);
   options.set("starts", std::int64_t{1});
   return {refiner, std::move(options)};
+}
+
+/// What makes the draws of a plan, beside the question that they answer.
+std::string program_of(const execution::Plan& plan) {
+  return fmt::format("tunica {}, {}, {}", version(), detail::name(detail::vector_level()),
+                     fmt::join(plan.plugins, ", "));
 }
 
 std::vector<std::size_t> wanted(const experiment::Analysis& analysis, const assembly::Assembly& assembly) {
@@ -174,9 +183,10 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
     }
     if (analysis.posterior_draws > 0) {
       if (told) told("posterior of " + own.label);
-      DrawJournal journal(directory / fmt::format("posterior_steps_{}.csv", file_stem(own.label)));
-      const auto made = posterior::sample(assembly, best, analysis.posterior_draws, seed, interrupted, {},
-                                          analysis.discrepancy, &journal);
+      DrawJournal journal(directory / fmt::format("posterior_steps_{}.csv", file_stem(own.label)), program_of(plan));
+      const auto over = [&] { return journal.has_failed() || (interrupted && interrupted()); };
+      const auto made =
+          posterior::sample(assembly, best, analysis.posterior_draws, seed, over, {}, analysis.discrepancy, &journal);
       journal.finish();
       if (!made.status.ok()) {
         own.uncertainty.push_back("no posterior: " + made.status.reason());

@@ -36,9 +36,12 @@ Marginal marginal(const std::vector<Chain>& chains, std::size_t parameter) {
   return found;
 }
 
-/// What the steps of all chains depend on, beside the code. The centre stands for data, model and bounds.
+/// What the steps of all chains depend on, beside the program. The centre stands for data, model and bounds. The scheme
+/// is the number of the moves, to be raised with any change to them that makes other draws.
 std::string name_of(const Question& question, const Centre& from, std::span<const double> best, std::uint64_t seed) {
-  std::string name = fmt::format("seed {}, discrepancy {}, best", seed, question.discrepancy.has_value());
+  constexpr int scheme = 2;
+  std::string name =
+      fmt::format("scheme {}, seed {}, discrepancy {}, best", scheme, seed, question.discrepancy.has_value());
   for (const double value : best) name += fmt::format(" {}", value);
   name += fmt::format(", log density {}, centre", from.point.log_density);
   for (const double value : from.point.z) name += fmt::format(" {}", value);
