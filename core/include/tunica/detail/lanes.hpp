@@ -90,12 +90,17 @@ struct Lanes {
   Vector v;
 
   [[gnu::always_inline]] Lanes() : v{} {}
-  /// The same number in every lane. From an array the compiler makes one broadcast; an operation on vectors it would
-  /// take apart before it knows the level, and write lane by lane.
+  /// The same number in every lane. Eight come from an array, of which the compiler makes one broadcast: an operation
+  /// on vectors that wide it takes apart before it knows the level, and writes lane by lane. Narrower ones it leaves
+  /// whole, and keeps better in registers.
   [[gnu::always_inline]] Lanes(double x) {
-    double same[width];
-    for (std::size_t l = 0; l < width; ++l) same[l] = x;
-    std::memcpy(&v, same, sizeof v);
+    if constexpr (width == 8) {
+      double same[width];
+      for (std::size_t l = 0; l < width; ++l) same[l] = x;
+      std::memcpy(&v, same, sizeof v);
+    } else {
+      v = x - Vector{};
+    }
   }
   [[gnu::always_inline]] explicit Lanes(const Vector& x) : v(x) {}
   // Written out, so that what holds lanes is copied vector by vector, and not as a block of memory.
