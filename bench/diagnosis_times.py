@@ -33,7 +33,7 @@ from hidden_terms.bases import curves, draw  # noqa: E402
 from hidden_terms.case_files import model_entry  # noqa: E402
 from hidden_terms.protocol import observe  # noqa: E402
 from real.real import absolute_paths, without_noise  # noqa: E402
-from wrong_files import NOISE, Case  # noqa: E402
+from false_records.case import NOISE, Case  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 COSTLY = ("fe_pressurisation", "external", "full_field", "plane_specimen")

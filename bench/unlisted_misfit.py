@@ -31,11 +31,12 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np  # noqa: E402
 from scipy.optimize import least_squares  # noqa: E402
 
+from false_records.case import Case  # noqa: E402
+from false_records.judgement import diagnosed  # noqa: E402
 from hidden_terms.bases import Form, curves, draw, with_term  # noqa: E402
 from hidden_terms.fitting import refit  # noqa: E402
 from hidden_terms.generate import draw_rig_error, draw_term, grown  # noqa: E402
 from hidden_terms.protocol import Curve, RigError, channel_slices, observe, reach  # noqa: E402
-from wrong_files import Case, diagnosed  # noqa: E402
 
 DEVELOPMENT_SEED = 401
 NOISE = 0.005  # of the range of every channel
