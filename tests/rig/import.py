@@ -54,7 +54,7 @@ assert "rows: 5 of the 13 in the file: the last cycle, loading only" in words(pr
 page = (folder / "data.html").read_text(encoding="utf-8")
 assert "5 of 13 rows are used" in page and "the curve that is fitted" in page and "Kraft [N]" in page
 # Two files are two specimens, or two tests of one.
-other = table("other.csv", ["s;mm;N", "0;0;0", "1;2;0,6", "2;4;1,1"])
+other = table("other.csv", ["Zeit;Weg;Kraft", "s;mm;N", "0;0;0", "1;2;0,6", "2;4;1,1"])
 by_size = ("--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "20 mm")
 experiment, said = imported(strip, other, *by_size)
 assert [run["tests"] for run in experiment["runs"]] == [["strip"], ["other"]], experiment["runs"]
