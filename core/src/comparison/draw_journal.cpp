@@ -16,8 +16,6 @@ namespace {
 using posterior::Step;
 using Steps = std::vector<std::vector<Step>>;
 
-constexpr std::string_view cannot_write = "cannot write: ";
-
 std::string header(const std::string& question, std::size_t parameters) {
   std::string text = "# " + question + "\nchain,step,log_density,acceptance,size,random,simulations,failed";
   for (std::size_t j = 1; j <= parameters; ++j) text += fmt::format(",z_{}", j);
@@ -92,10 +90,7 @@ void DrawJournal::write() {
   try {
     appended_.append(text_);
   } catch (const execution::WriteFailure& problem) {
-    std::string why = problem.what();
-    if (const auto found = why.find(cannot_write); found != std::string::npos)
-      why.erase(0, found + cannot_write.size());
-    throw execution::WriteFailure(file_, fmt::format("{}. {} steps of the chains are kept there", why, kept_));
+    throw execution::WriteFailure(fmt::format("{}. {} steps of the chains are kept there", problem.what(), kept_));
   }
   kept_ += waiting_;
   waiting_ = 0;

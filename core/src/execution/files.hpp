@@ -16,6 +16,8 @@ class WriteFailure : public std::runtime_error {
  public:
   WriteFailure(const std::filesystem::path& file, int error);
   WriteFailure(const std::filesystem::path& file, const std::string& words);
+  /// With the whole sentence, for one who adds to that of another failure.
+  explicit WriteFailure(const std::string& sentence) : std::runtime_error(sentence) {}
 };
 
 /// A file that only grows at its end. Every call either writes everything or throws WriteFailure. It also throws if a
