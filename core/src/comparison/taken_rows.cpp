@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "data/dataset.hpp"
+#include "tunica/error.hpp"
 
 namespace tunica::comparison {
 
@@ -40,8 +41,11 @@ TakenRows taken_of(const experiment::TestEntry& test, const std::vector<Observab
 
 std::vector<TakenRows> taken_rows(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
   std::vector<TakenRows> taken;
-  for (const experiment::TestEntry& test : experiment.tests)
-    taken.push_back(taken_of(test, catalogue.tests().find(test.type)->second.factory.observables));
+  for (const experiment::TestEntry& test : experiment.tests) try {
+      taken.push_back(taken_of(test, catalogue.tests().find(test.type)->second.factory.observables));
+    } catch (const InputError& problem) {
+      throw InputError(fmt::format("test '{}': {}", test.name, problem.what()));
+    }
   return taken;
 }
 
