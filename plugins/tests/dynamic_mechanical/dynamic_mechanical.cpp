@@ -209,9 +209,10 @@ class DynamicMechanical final : public Test {
       LargeOscillation cycles(input.model, input.model_parameters, specimen_);
       std::vector<Complex> moduli(large.size());
       if (!cycles.moduli(large, moduli)) {
-        const std::size_t i = large_rows[cycles.failed_row()];
+        if (!cycles.failed_row()) return Status::failed("dynamic_mechanical: " + cycles.failure());
+        const std::size_t i = large_rows[*cycles.failed_row()];
         return Status::failed(name_of(i, {(*frequency)[i], stretch != nullptr ? (*stretch)[i] : static_stretch_,
-                                          large[cycles.failed_row()].amplitude}) +
+                                          large[*cycles.failed_row()].amplitude}) +
                               cycles.failure());
       }
       for (std::size_t k = 0; k < large.size(); ++k) found[large_rows[k]] = moduli[k];

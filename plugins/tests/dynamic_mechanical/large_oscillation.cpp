@@ -21,10 +21,11 @@ constexpr double state_part = 1e-4;  ///< of differences by the state, relative;
 
 }  // namespace
 
-bool LargeOscillation::fails(std::size_t row, std::string why) {
+/// Notes why there are no moduli; false, which callers hand on.
+bool LargeOscillation::fail(std::optional<std::size_t> row, std::string why) {
   failed_row_ = row;
   failure_ = std::move(why);
-  return true;
+  return false;
 }
 
 /// C of row i at its y.
@@ -46,11 +47,13 @@ bool LargeOscillation::step(std::span<const Row> rows, std::size_t per_cycle, do
   const std::size_t n = rows.size(), m = model_.describe().history_size;
   for (std::size_t i = 0; i < n; ++i) time_[i] = rows[i].period / static_cast<double>(per_cycle);
   const std::span<const double> time = m > 0 ? std::span<const double>(time_) : std::span<const double>();
+  std::size_t slowest = 0;
   for (int k = 0; k < newton_iterations; ++k) {
     for (std::size_t i = 0; i < n; ++i) place(n, i, rows[i].centre + rows[i].amplitude * sine);
     const Status status = model_.evaluate({n, C_, parameters_, time, state_}, {{}, stress_, tangent_, {}, after_});
-    if (!status.ok()) return !fails(0, status.reason());
+    if (!status.ok()) return fail(std::nullopt, status.reason());
     double largest = 0;
+    slowest = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const double strain = rows[i].centre + rows[i].amplitude * sine;
       Tensor S, C;
@@ -58,7 +61,7 @@ bool LargeOscillation::step(std::span<const Row> rows, std::size_t per_cycle, do
         S[c] = stress_[c * n + i];
         C[c] = C_[c * n + i];
       }
-      if (!detail::all_finite(S.data(), S.size())) return !fails(i, "the stress is not finite");
+      if (!detail::all_finite(S.data(), S.size())) return fail(i, "the stress is not finite");
       if (specimen_.shear) {
         nominal_[i] = S[specimen_.sheared()] + strain * S[specimen_.normal];
         continue;
@@ -70,16 +73,17 @@ bool LargeOscillation::step(std::span<const Row> rows, std::size_t per_cycle, do
       by_y[specimen_.third()] = -C[specimen_.third()];
       const StripSlopes<double> at(specimen_, S, C, Tensor{}, SmallOscillation::change(tangent, by_y));
       const double move = -at.r / at.r_y;
-      if (!(at.r_y > 0) || !std::isfinite(move)) return !fails(i, "no lateral equilibrium along the cycle");
+      if (!(at.r_y > 0) || !std::isfinite(move)) return fail(i, "no lateral equilibrium along the cycle");
       nominal_[i] = (at.stress + at.stress_y * move) / strain;
       y_[i] += std::clamp(move, -0.6, 0.6);
+      if (std::abs(move) > largest) slowest = i;
       largest = std::max(largest, std::abs(move));
     }
     if (largest > last_step) continue;
     std::swap(state_, after_);
     return true;
   }
-  return !fails(0, "no lateral equilibrium along the cycle");
+  return fail(slowest, "no lateral equilibrium along the cycle");
 }
 
 /// One cycle from the state at its beginning. `guess`: y of the cycle before at each phase, or empty.
@@ -123,8 +127,8 @@ bool LargeOscillation::forget(std::span<const Row> rows) {
       state[k * n + 2 * k + 1] -= moved[k];
     }
     const Status status = model_.evaluate({n, C, parameters_, time, state}, {{}, stress, {}, {}, after});
-    if (!status.ok()) return !fails(i, status.reason());
-    if (!detail::all_finite(after.data(), after.size())) return !fails(i, "the state of the model is not finite");
+    if (!status.ok()) return fail(i, status.reason());
+    if (!detail::all_finite(after.data(), after.size())) return fail(i, "the state of the model is not finite");
     Eigen::MatrixXd kept = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(m));
     for (std::size_t c = 0; c < m; ++c)
       for (std::size_t k = 0; k < m; ++k)
@@ -170,7 +174,7 @@ bool LargeOscillation::settled(std::span<const Row> rows, std::size_t per_cycle,
       for (std::size_t c = 0; c < m; ++c) state_[c * n + i] = begin[c * n + i] + move[static_cast<Eigen::Index>(c)];
     }
   }
-  return !fails(failed_row_, "its cycles do not settle");
+  return fail(failed_row_, "its cycles do not settle");
 }
 
 /// What steps make of a small oscillation is known, and taken off; the rest falls with their square.

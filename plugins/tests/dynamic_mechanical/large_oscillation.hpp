@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -72,7 +73,8 @@ class LargeOscillation {
   /// M* of each row, kPa. False where the model fails, or has no equilibrium, or cycles do not settle.
   bool moduli(std::span<const Row> rows, std::span<std::complex<double>> found);
   [[nodiscard]] const std::string& failure() const { return failure_; }
-  [[nodiscard]] std::size_t failed_row() const { return failed_row_; }
+  /// None where the model failed in a batch of rows.
+  [[nodiscard]] std::optional<std::size_t> failed_row() const { return failed_row_; }
 
  private:
   bool forget(std::span<const Row> rows);
@@ -81,13 +83,13 @@ class LargeOscillation {
              std::span<std::complex<double>> found);
   bool step(std::span<const Row> rows, std::size_t per_cycle, double sine);
   void place(std::size_t n, std::size_t i, double strain);
-  bool fails(std::size_t row, std::string why);
+  bool fail(std::optional<std::size_t> row, std::string why);
 
   const Model& model_;
   std::span<const double> parameters_;
   Specimen specimen_;
   std::string failure_;
-  std::size_t failed_row_ = 0;
+  std::optional<std::size_t> failed_row_;
   std::vector<Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>> left_;  ///< 1 − P of each row
   // Structures of arrays over the rows.
   std::vector<double> C_, stress_, tangent_, time_, state_, after_, y_, nominal_;
