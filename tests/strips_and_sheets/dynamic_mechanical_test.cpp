@@ -110,30 +110,38 @@ TEST(DynamicMechanical, IsTheSlopeOfTheStaticCurveWithoutMemory) {
   }
 }
 
+/// What a strip of gho with two branches shows that oscillates in time from a settled state, in the last of its
+/// periods: the first harmonic of the nominal stress over the amplitude.
+struct Oscillated {
+  static constexpr double stretch = 1.3, frequency = 0.1;
+  std::vector<double> p{18.668, 0.1367, 24.905, 0.2912, 46.44, 0.8, 2, 0.3, 0.5};
+  std::unique_ptr<Model> model = viscous("gho", 2);
+
+  [[nodiscard]] Complex modulus(double amplitude, std::size_t per_period, std::size_t periods) const {
+    const auto phase_at = [&](std::size_t k) {
+      return 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(per_period);
+    };
+    std::vector<double> lambda{stretch}, time{1e6};  // settled before
+    for (std::size_t k = 1; k <= per_period * periods; ++k) {
+      time.push_back(1e6 + static_cast<double>(k) / (static_cast<double>(per_period) * frequency));
+      lambda.push_back(stretch + amplitude * std::sin(phase_at(k)));
+    }
+    const auto strip = make_strip(lambda, {.measure = "first_piola_kirchhoff", .time = time});
+    const auto stress = predict(*strip, *model, p).values;
+    Complex sum;
+    for (std::size_t k = per_period * (periods - 1) + 1; k <= per_period * periods; ++k)
+      sum += Complex(std::sin(phase_at(k)), std::cos(phase_at(k))) * stress[k];
+    return sum * (2 / (static_cast<double>(per_period) * amplitude));
+  }
+};
+
 TEST(DynamicMechanical, IsWhatAStripShowsThatOscillatesInTime) {
-  // A sine of amplitude 1e-5 about λ = 1.3, until the start is forgotten; the last period in the phases of the sine.
-  constexpr double stretch = 1.3, amplitude = 1e-5, frequency = 0.1;
-  const std::vector<double> p{18.668, 0.1367, 24.905, 0.2912, 46.44, 0.8, 2, 0.3, 0.5};
-  constexpr std::size_t per_period = 2000, periods = 8;
-  std::vector<double> lambda{stretch}, time{1e6};  // settled before
-  for (std::size_t k = 1; k <= per_period * periods; ++k) {
-    const double t = double(k) / (per_period * frequency);
-    time.push_back(1e6 + t);
-    lambda.push_back(stretch + amplitude * std::sin(2 * std::numbers::pi * frequency * t));
-  }
-  const auto model = viscous("gho", 2);
-  const auto strip = make_strip(lambda, {.measure = "first_piola_kirchhoff", .time = time});
-  const auto stress = predict(*strip, *model, p).values;
-  double in_phase = 0, ahead = 0;
-  for (std::size_t k = 0; k < per_period; ++k) {
-    const std::size_t row = per_period * (periods - 1) + 1 + k;
-    const double phase = 2 * std::numbers::pi * frequency * (time[row] - 1e6);
-    in_phase += stress[row] * std::sin(phase) * 2 / per_period;
-    ahead += stress[row] * std::cos(phase) * 2 / per_period;
-  }
-  const auto values = values_of(*make_dma({{"frequency", {frequency}}}, {.static_stretch = stretch}), *model, p);
-  EXPECT_NEAR(in_phase / amplitude, values[0], 1e-5 * values[0]);
-  EXPECT_NEAR(ahead / amplitude, values[1], 1e-5 * values[0]);
+  const Oscillated strip;
+  const Complex shown = strip.modulus(1e-5, 2000, 8);
+  const auto values = values_of(*make_dma({{"frequency", {strip.frequency}}}, {.static_stretch = strip.stretch}),
+                                *strip.model, strip.p);
+  EXPECT_NEAR(shown.real(), values[0], 1e-5 * values[0]);
+  EXPECT_NEAR(shown.imag(), values[1], 1e-5 * values[0]);
 }
 
 // σ1 = μγ + h_ab + γ h_bb, where S'_ab = μ (γ + γ³/3) and S'_bb = −μγ²/3. With γ = A sin ωt the first harmonic of the
@@ -192,29 +200,14 @@ TEST(LargeOscillation, ConvergesToTheSmallOneWithTheSquareOfTheAmplitude) {
 }
 
 TEST(LargeOscillation, IsWhatAStripShowsThatOscillatesInTime) {
-  // The first harmonic of the last of many periods, in finer steps than those of the test.
-  constexpr double stretch = 1.3, amplitude = 0.2, frequency = 0.1;
-  const std::vector<double> p{18.668, 0.1367, 24.905, 0.2912, 46.44, 0.8, 2, 0.3, 0.5};
-  constexpr std::size_t per_period = 1000, periods = 12;
-  std::vector<double> lambda{stretch}, time{1e6};  // settled before
-  for (std::size_t k = 1; k <= per_period * periods; ++k) {
-    const double t = double(k) / (per_period * frequency);
-    time.push_back(1e6 + t);
-    lambda.push_back(stretch + amplitude * std::sin(2 * std::numbers::pi * frequency * t));
-  }
-  const auto model = viscous("gho", 2);
-  const auto strip = make_strip(lambda, {.measure = "first_piola_kirchhoff", .time = time});
-  const auto stress = predict(*strip, *model, p).values;
-  Complex expected;
-  for (std::size_t k = 0; k < per_period; ++k) {
-    const std::size_t row = per_period * (periods - 1) + 1 + k;
-    const double phase = 2 * std::numbers::pi * frequency * (time[row] - 1e6);
-    expected += Complex(std::sin(phase), std::cos(phase)) * (stress[row] * 2 / (per_period * amplitude));
-  }
+  constexpr double amplitude = 0.2;
+  const Oscillated strip;
+  const Complex shown = strip.modulus(amplitude, 1000, 12);  // in finer steps than those of the test
   const auto values = values_of(
-      *make_dma({{"frequency", {frequency}}}, {.static_stretch = stretch, .amplitude = amplitude}), *model, p);
-  EXPECT_NEAR(values[0], expected.real(), 2e-5 * std::abs(expected));
-  EXPECT_NEAR(values[1], expected.imag(), 2e-5 * std::abs(expected));
+      *make_dma({{"frequency", {strip.frequency}}}, {.static_stretch = strip.stretch, .amplitude = amplitude}),
+      *strip.model, strip.p);
+  EXPECT_NEAR(values[0], shown.real(), 2e-5 * std::abs(shown));
+  EXPECT_NEAR(values[1], shown.imag(), 2e-5 * std::abs(shown));
 }
 
 TEST(LargeOscillation, HasAModulusWhereTheMaterialSoftens) {
