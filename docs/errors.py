@@ -54,7 +54,7 @@ SUBJECTS = [
       "core/include/tunica/model", "core/include/tunica/test"]),
     ("`tunica plugin check`", "Told beside the property that could not be checked.", ["core/src/conformance/"]),
     ("Models and mechanisms", "", ["plugins/models/", "plugins/mechanisms/"]),
-    ("Tests", "A message with a row is a failed evaluation, the others are wrong input.", ["plugins/tests/"]),
+    ("Tests", "A message with a row is a failed evaluation, the others are wrong input.", ["plugins/simulated_tests/"]),
     ("Optimisers", "", ["plugins/optimizers/"]),
 ]
 NOT_MESSAGES = ["core/src/conformance/function", "core/src/conformance/constrained", "core/src/conformance/test_calls"]

@@ -33,7 +33,7 @@ foreach(model arruda_boyce four_fibre fung gent gho hgo holzapfel_2015 holzapfel
   embed(like_model ${model} ${PLUGINS}/models/${model})
 endforeach()
 foreach(test biaxial simple_shear uniaxial)
-  embed(like_test ${test} ${PLUGINS}/tests/${test})
+  embed(like_test ${test} ${PLUGINS}/simulated_tests/${test})
 endforeach()
 embed(like_optimizer es ${PLUGINS}/optimizers/es)
 file(WRITE ${OUTPUT} "${text}};\n}  // namespace\nstd::span<const TemplateFile> template_files() { return files; }\nstd::span<const TemplateFile> built_in_files() { return built_in; }\n}  // namespace tunica::app\n")

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "../../tests/plane_specimen/pulling.hpp"
+#include "../../simulated_tests/plane_specimen/pulling.hpp"
 #include "tunica/test.hpp"
 
 namespace tunica::clamped_ends {
