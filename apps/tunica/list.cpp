@@ -11,10 +11,13 @@
 #include "data/nearest.hpp"
 #include "exit_codes.hpp"
 #include "plugins/description.hpp"
+#include "results/keys.hpp"
 #include "text/wrapping.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
+
+namespace key = results::key;
 
 namespace {
 
@@ -36,10 +39,10 @@ void print_shelf(const std::string& title, const Shelf& shelf, const ListOptions
   if (options.as_json) {
     auto& list = document[title] = nlohmann::ordered_json::array();
     for (const auto& [name, entry] : shelf)
-      list.push_back({{"name", name},
-                      {"doc", doc_of(entry.factory)},
-                      {"reference", entry.factory.reference},
-                      {"plugin", entry.plugin}});
+      list.push_back({{key::name, name},
+                      {key::doc, doc_of(entry.factory)},
+                      {key::reference, entry.factory.reference},
+                      {key::plugin, entry.plugin}});
     return;
   }
   if (!options.names) answer("{} ({})\n", title, shelf.size());
@@ -66,10 +69,10 @@ int list(const GlobalOptions& global, const ListOptions& options) {
   print_shelf("optimizers", catalogue.optimizers(), options, document);
   print_shelf("mechanisms", catalogue.mechanisms(), options, document);
   if (!options.as_json) return done;
-  auto& plugins = document["plugins"] = nlohmann::ordered_json::array();
+  auto& plugins = document[key::plugins] = nlohmann::ordered_json::array();
   for (const auto& one : session.loaded())
-    plugins.push_back({{"name", one.name}, {"version", one.version}, {"file", one.file.string()}});
-  document["refused"] = session.refusals();
+    plugins.push_back({{key::name, one.name}, {key::version, one.version}, {key::file, one.file.string()}});
+  document[key::refused] = session.refusals();
   print_json(document);
   return done;
 }

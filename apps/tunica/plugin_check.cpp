@@ -17,12 +17,15 @@
 #include "messages.hpp"
 #include "plugin.hpp"
 #include "plugins/loader.hpp"
+#include "results/keys.hpp"
 #include "text/escaped.hpp"
 #include "text/lists.hpp"
 #include "text/wrapping.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
+
+namespace key = results::key;
 
 namespace {
 
@@ -119,15 +122,15 @@ class Table {
 
 json as_json(const Finding& finding) {
   const conformance::Verdict& verdict = finding.verdict;
-  json one{{"kind", finding.kind},         {"name", finding.name},        {"with", finding.with},
-           {"property", finding.property}, {"outcome", outcome(finding)}, {"compared", verdict.compared}};
+  json one{{key::kind, finding.kind},         {key::name, finding.name},        {key::with, finding.with},
+           {key::property, finding.property}, {key::outcome, outcome(finding)}, {key::compared, verdict.compared}};
   // JSON has no number for an infinite error.
-  one["worst"] = verdict.worst;
-  one["tolerance"] = verdict.tolerance;
-  if (!verdict.counter_example.empty()) one["counter_example"] = verdict.counter_example;
-  if (!verdict.skipped.empty()) one["reason"] = verdict.skipped;
-  if (!verdict.note.empty()) one["note"] = verdict.note;
-  one["seconds"] = finding.seconds;
+  one[key::worst] = verdict.worst;
+  one[key::tolerance] = verdict.tolerance;
+  if (!verdict.counter_example.empty()) one[key::counter_example] = verdict.counter_example;
+  if (!verdict.skipped.empty()) one[key::reason] = verdict.skipped;
+  if (!verdict.note.empty()) one[key::note] = verdict.note;
+  one[key::seconds] = finding.seconds;
   return one;
 }
 
@@ -156,8 +159,8 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
     skipped += !one.verdict.skipped.empty();
   }
   if (asked.as_json) {
-    json all{{"plugin", plugin}, {"file", asked.file}, {"seed", asked.seed}, {"passed", failed == 0}};
-    for (const Finding& one : findings) all["findings"].push_back(as_json(one));
+    json all{{key::plugin, plugin}, {key::file, asked.file}, {key::seed, asked.seed}, {key::passed, failed == 0}};
+    for (const Finding& one : findings) all[key::findings].push_back(as_json(one));
     answer("{}\n", text::plain_json(all.dump(2, ' ', false, json::error_handler_t::replace)));
     return failed == 0 ? done : not_converged;
   }

@@ -11,8 +11,11 @@
 #include "diagnosis/output/outputs.hpp"
 #include "discovery/output/outputs.hpp"
 #include "execution/files.hpp"
+#include "results/keys.hpp"
 
 namespace tunica::budget {
+
+namespace key = results::key;
 
 DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const diagnosis::Request& request,
                              const plugins::Catalogue& catalogue, bool discovers, const diagnosis::Progress& progress) {
@@ -40,7 +43,7 @@ void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndS
   execution::write_atomically(directory / "input.json", experiment.input_json);
   nlohmann::ordered_json more = nlohmann::ordered_json::object();
   std::string extended;
-  if (found.search) more["discovery"] = discovery::discovery_json(*found.search);
+  if (found.search) more[key::discovery] = discovery::discovery_json(*found.search);
   // The terms take the place of a mechanism that leaves more than noise.
   if (found.discovered()) extended = discovery::extended_experiment(*found.search, catalogue);
   if (extended.empty() && found.leads()) extended = extended_experiment(*found.budget, found.diagnosis, catalogue);
@@ -57,7 +60,7 @@ void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndS
         diagnosis::residual_table(found.diagnosis.analysis.evidence, &found.budget->fitted->extension->assembly(),
                                   &found.budget->fitted->fit, {}));
   nlohmann::ordered_json of_diagnosis = nlohmann::ordered_json::object();
-  if (found.budget) of_diagnosis["budget"] = budget_json(*found.budget);
+  if (found.budget) of_diagnosis[key::budget] = budget_json(*found.budget);
   execution::write_atomically(directory / "result.json",
                               diagnosis::result_document(found.diagnosis, experiment, catalogue, more, of_diagnosis));
 }

@@ -8,8 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "cluster/command.hpp"
+#include "results/keys.hpp"
 
 namespace tunica::cluster {
+
+namespace key = results::key;
 
 namespace {
 
@@ -148,31 +151,31 @@ std::string in_json(const Overview& view, const Submission& submission) {
   const auto or_null = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
   Json shards = Json::array();
   for (const ShardView& shard : view.shards)
-    shards.push_back({{"shard", shard.progress.share.part},
-                      {"standing", std::string(text::code_of(standing_codes, shard.standing))},
-                      {"specimens", shard.progress.specimens},
-                      {"missing", shard.progress.missing},
-                      {"job", or_null(shard.job)},
-                      {"state", or_null(shard.state)},
-                      {"reason", or_null(shard.reason)},
-                      {"nodes", or_null(shard.nodes)},
-                      {"last_words", or_null(shard.last_words)}});
+    shards.push_back({{key::shard, shard.progress.share.part},
+                      {key::standing, std::string(text::code_of(standing_codes, shard.standing))},
+                      {key::specimens, shard.progress.specimens},
+                      {key::missing, shard.progress.missing},
+                      {key::job, or_null(shard.job)},
+                      {key::state, or_null(shard.state)},
+                      {key::reason, or_null(shard.reason)},
+                      {key::nodes, or_null(shard.nodes)},
+                      {key::last_words, or_null(shard.last_words)}});
   Json merge = nullptr;
   if (view.merge)
-    merge = {{"job", view.merge->job},
-             {"standing", std::string(text::code_of(slurm::phase_codes, view.merge->phase))},
-             {"state", view.merge->state},
-             {"reason", or_null(view.merge->reason)},
-             {"last_words", or_null(view.merge_last_words)}};
+    merge = {{key::job, view.merge->job},
+             {key::standing, std::string(text::code_of(slurm::phase_codes, view.merge->phase))},
+             {key::state, view.merge->state},
+             {key::reason, or_null(view.merge->reason)},
+             {key::last_words, or_null(view.merge_last_words)}};
   Json held = Json::array();
-  for (const slurm::Task& task : view.held) held.push_back({{"job", id_of(task)}, {"reason", task.reason}});
-  const Json json = {{"name", submission.name},
-                     {"specimens", view.specimens},
-                     {"missing", view.missing},
-                     {"queue_problem", or_null(view.queue_problem)},
-                     {"shards", shards},
-                     {"merge", merge},
-                     {"held", held}};
+  for (const slurm::Task& task : view.held) held.push_back({{key::job, id_of(task)}, {key::reason, task.reason}});
+  const Json json = {{key::name, submission.name},
+                     {key::specimens, view.specimens},
+                     {key::missing, view.missing},
+                     {key::queue_problem, or_null(view.queue_problem)},
+                     {key::shards, shards},
+                     {key::merge, merge},
+                     {key::held, held}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

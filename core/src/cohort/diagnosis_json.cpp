@@ -5,20 +5,24 @@
 #include "cohort/diagnosis_study.hpp"
 #include "cohort/tables.hpp"
 #include "cohort_diagnosis/verdict_json.hpp"
+#include "results/keys.hpp"
 #include "text/csv.hpp"
 
 namespace tunica::cohort {
 
+namespace key = results::key;
+
 using Json = nlohmann::ordered_json;
 
 Json diagnosis_json(const SpecimenTable& table, const DiagnosisStudy& study) {
-  Json json = study.none.empty() ? cohort_diagnosis::to_json(study.verdict) : Json{{"problem", study.none}};
-  json["alpha"] = study.alpha;
-  json["sentences"] = diagnosis_sentences(study);
-  json["not_diagnosed"] = Json::array();
+  Json json = study.none.empty() ? cohort_diagnosis::to_json(study.verdict) : Json{{key::problem, study.none}};
+  json[key::alpha] = study.alpha;
+  json[key::sentences] = diagnosis_sentences(study);
+  json[key::not_diagnosed] = Json::array();
   for (const NotDiagnosed& one : study.problems)
-    json["not_diagnosed"].push_back({{"specimen", table.specimens[one.position].id}, {"reason", one.reason}});
-  if (!study.extended.empty()) json["extended"] = {{"experiment", "extended.json"}, {"cohort", "extended_cohort.json"}};
+    json[key::not_diagnosed].push_back({{key::specimen, table.specimens[one.position].id}, {key::reason, one.reason}});
+  if (!study.extended.empty())
+    json[key::extended] = {{key::experiment, "extended.json"}, {key::cohort, "extended_cohort.json"}};
   return json;
 }
 

@@ -8,9 +8,12 @@
 #include "cohort/tables.hpp"
 #include "discovery/output/outputs.hpp"
 #include "discovery/output/parts.hpp"
+#include "results/keys.hpp"
 #include "text/csv.hpp"
 
 namespace tunica::cohort {
+
+namespace key = results::key;
 
 namespace {
 
@@ -30,40 +33,42 @@ Json over_specimens(const discovery::CommonTerm& term) {
             if (own.name == parameter.name) values.push_back(own.value);
       std::sort(values.begin(), values.end());
       const std::size_t n = values.size();
-      all[parameter.name] = {{"value", (values[(n - 1) / 2] + values[n / 2]) / 2},
-                             {"low", values.front()},
-                             {"high", values.back()},
-                             {"unit", parameter.unit}};
+      all[parameter.name] = {{key::value, (values[(n - 1) / 2] + values[n / 2]) / 2},
+                             {key::low, values.front()},
+                             {key::high, values.back()},
+                             {key::unit, parameter.unit}};
     }
   }
   return all;
 }
 
 Json term_json(const discovery::CommonDiscovery& found, const discovery::CommonTerm& term) {
-  Json one = {{"name", term.name}};
+  Json one = {{key::name, term.name}};
   one.update(discovery::kind_json(*term.kind));
-  one["closed"] = true;
-  one["probability"] = term.probability;
-  one["invariant_probability"] = term.invariant_probability;
-  one["seen"] = term.seen();
-  one["parameters"] = over_specimens(term);
-  one["curves"] = Json::array();
+  one[key::closed] = true;
+  one[key::probability] = term.probability;
+  one[key::invariant_probability] = term.invariant_probability;
+  one[key::seen] = term.seen();
+  one[key::parameters] = over_specimens(term);
+  one[key::curves] = Json::array();
   for (std::size_t s = 0; s < term.specimens.size(); ++s)
     if (const auto& own = term.specimens[s])
-      one["curves"].push_back(
-          {{"specimen", found.specimens[s].id}, {"x", own->curve.x}, {"slope", own->curve.slope}, {"unit", "kPa"}});
+      one[key::curves].push_back({{key::specimen, found.specimens[s].id},
+                                  {key::x, own->curve.x},
+                                  {key::slope, own->curve.slope},
+                                  {key::unit, "kPa"}});
   return one;
 }
 
 Json specimen_json(const discovery::SpecimenOutcome& one) {
-  return {{"specimen", one.id},
-          {"rows", one.analysis.evidence.fit.residuals.size()},
-          {"p_before", one.analysis.alarm.p()},
-          {"p_after", one.p_after},
-          {"chi2_before", one.chi2_before},
-          {"chi2_after", one.chi2_after},
-          {"gain", one.gain},
-          {"needed", one.needed}};
+  return {{key::specimen, one.id},
+          {key::rows, one.analysis.evidence.fit.residuals.size()},
+          {key::p_before, one.analysis.alarm.p()},
+          {key::p_after, one.p_after},
+          {key::chi2_before, one.chi2_before},
+          {key::chi2_after, one.chi2_after},
+          {key::gain, one.gain},
+          {key::needed, one.needed}};
 }
 
 }  // namespace
@@ -73,21 +78,21 @@ std::string discovery_document(const Specification& cohort, const DiscoveryStudy
   const discovery::CommonDiscovery& found = study.found;
   Json result = discovery::answer_json(found.request, found.judgement);
   const bool base = !found.request.from_nothing;
-  result["p_before"] = base ? Json(found.p_before) : Json(nullptr);
-  result["p_after"] = found.p_after;
-  result["chi2_before"] = base ? Json(found.chi2_before) : Json(nullptr);
-  result["chi2_after"] = found.chi2_after;
-  result["rows"] = found.rows;
-  result["sets_fitted"] = found.sets_tried;
-  result["terms"] = Json::array();
-  for (const discovery::CommonTerm& term : found.terms) result["terms"].push_back(term_json(found, term));
-  result["path_dependence"] = discovery::paths_json(found.paths);
-  result["held_out"] = Json::array();
-  result["specimens"] = Json::array();
-  for (const discovery::SpecimenOutcome& one : found.specimens) result["specimens"].push_back(specimen_json(one));
-  result["left_out"] = Json::array();
+  result[key::p_before] = base ? Json(found.p_before) : Json(nullptr);
+  result[key::p_after] = found.p_after;
+  result[key::chi2_before] = base ? Json(found.chi2_before) : Json(nullptr);
+  result[key::chi2_after] = found.chi2_after;
+  result[key::rows] = found.rows;
+  result[key::sets_fitted] = found.sets_tried;
+  result[key::terms] = Json::array();
+  for (const discovery::CommonTerm& term : found.terms) result[key::terms].push_back(term_json(found, term));
+  result[key::path_dependence] = discovery::paths_json(found.paths);
+  result[key::held_out] = Json::array();
+  result[key::specimens] = Json::array();
+  for (const discovery::SpecimenOutcome& one : found.specimens) result[key::specimens].push_back(specimen_json(one));
+  result[key::left_out] = Json::array();
   for (const discovery::LeftOut& one : found.left_out)
-    result["left_out"].push_back({{"specimen", one.id}, {"reason", one.reason}});
+    result[key::left_out].push_back({{key::specimen, one.id}, {key::reason, one.reason}});
   std::vector<std::string> data;
   for (const discovery::SpecimenOutcome& one : found.specimens) {
     const auto& own = one.analysis.evidence.base->layout().data_hashes;

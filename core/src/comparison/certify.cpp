@@ -13,12 +13,15 @@
 #include "comparison/ranking.hpp"
 #include "plugins/default_options.hpp"
 #include "plugins/limited_work.hpp"
+#include "results/keys.hpp"
 #include "text/escaped.hpp"
 #include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 #include "uncertainty/refit.hpp"
 
 namespace tunica::comparison {
+
+namespace key = results::key;
 
 namespace {
 
@@ -27,39 +30,40 @@ using json = nlohmann::ordered_json;
 json to_json(const search::Neighbourhood& around) {
   json lowest = nullptr;
   if (around.lowest)
-    lowest = {{"objective", around.lowest->objective},
-              {"along", around.lowest->along},
-              {"step", around.lowest->step},
-              {"parameters", around.lowest->parameters}};
-  return {{"status", name(around.status.kind())},
-          {"reason", around.status.reason()},
-          {"violation", around.status.violation()},
-          {"objective", around.objective},
-          {"evaluated", around.evaluated},
-          {"infeasible", around.infeasible},
-          {"failed", around.failed},
-          {"left_out", around.left_out},
-          {"lowest", std::move(lowest)},
-          {"better", around.better},
-          {"constraints", around.constraints},
-          {"active_constraints", around.active_constraints}};
+    lowest = {{key::objective, around.lowest->objective},
+              {key::along, around.lowest->along},
+              {key::step, around.lowest->step},
+              {key::parameters, around.lowest->parameters}};
+  return {{key::status, name(around.status.kind())},
+          {key::reason, around.status.reason()},
+          {key::violation, around.status.violation()},
+          {key::objective, around.objective},
+          {key::evaluated, around.evaluated},
+          {key::infeasible, around.infeasible},
+          {key::failed, around.failed},
+          {key::left_out, around.left_out},
+          {key::lowest, std::move(lowest)},
+          {key::better, around.better},
+          {key::constraints, around.constraints},
+          {key::active_constraints, around.active_constraints}};
 }
 
 search::Neighbourhood from_json(const json& around) {
   search::Neighbourhood result;
-  const std::string status = around.at("status");
-  if (status == "failed") result.status = Status::failed(around.at("reason"));
-  if (status == "infeasible") result.status = Status::infeasible(around.at("reason"), around.at("violation"));
-  result.objective = around.at("objective");
-  result.evaluated = around.at("evaluated");
-  result.infeasible = around.at("infeasible");
-  result.failed = around.at("failed");
-  result.left_out = around.at("left_out");
-  if (const auto& lowest = around.at("lowest"); !lowest.is_null())
-    result.lowest = {lowest.at("objective"), lowest.at("step"), lowest.at("along"), lowest.at("parameters")};
-  result.better = around.at("better");
-  result.constraints = around.at("constraints");
-  result.active_constraints = around.at("active_constraints");
+  const std::string status = around.at(key::status);
+  if (status == "failed") result.status = Status::failed(around.at(key::reason));
+  if (status == "infeasible") result.status = Status::infeasible(around.at(key::reason), around.at(key::violation));
+  result.objective = around.at(key::objective);
+  result.evaluated = around.at(key::evaluated);
+  result.infeasible = around.at(key::infeasible);
+  result.failed = around.at(key::failed);
+  result.left_out = around.at(key::left_out);
+  if (const auto& lowest = around.at(key::lowest); !lowest.is_null())
+    result.lowest = {lowest.at(key::objective), lowest.at(key::step), lowest.at(key::along),
+                     lowest.at(key::parameters)};
+  result.better = around.at(key::better);
+  result.constraints = around.at(key::constraints);
+  result.active_constraints = around.at(key::active_constraints);
   return result;
 }
 
@@ -71,8 +75,8 @@ search::Neighbourhood from_json(const json& around) {
 }
 
 const json& run_named(const json& result, const std::string& label) {
-  for (const auto& run : result.at("runs"))
-    if (run.at("run") == label) return run;
+  for (const auto& run : result.at(key::runs))
+    if (run.at(key::run) == label) return run;
   refuse(fmt::format("there is no run '{}' in the result", label));
 }
 
@@ -135,12 +139,13 @@ std::string best_points_json(const Summary& summary) {
   for (const auto& run : summary.runs) {
     json best = nullptr;
     if (run.has_result) {
-      best = {{"objective", run.objective}, {"parameters", json::object()}};
-      for (const auto& parameter : run.parameters) best["parameters"][parameter.name] = {{"value", parameter.value}};
+      best = {{key::objective, run.objective}, {key::parameters, json::object()}};
+      for (const auto& parameter : run.parameters)
+        best[key::parameters][parameter.name] = {{key::value, parameter.value}};
     }
-    runs.push_back({{"run", run.label}, {"best", std::move(best)}});
+    runs.push_back({{key::run, run.label}, {key::best, std::move(best)}});
   }
-  const json document = {{"runs", std::move(runs)}};
+  const json document = {{key::runs, std::move(runs)}};
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 
@@ -151,23 +156,23 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
     const json result = detail::parse_json<json>(result_json);
     for (const auto& planned : plan.runs) {
       const json& run = run_named(result, planned.label);
-      if (run.at("best").is_null()) continue;
-      const json& values = run.at("best").at("parameters");
+      if (run.at(key::best).is_null()) continue;
+      const json& values = run.at(key::best).at(key::parameters);
       std::vector<double> free;
       for (const auto& parameter : planned.assembly->layout().parameters) {
         if (!values.contains(parameter.name))
           refuse(fmt::format("run '{}' has no parameter '{}'", planned.label, parameter.name));
-        free.push_back(values.at(parameter.name).at("value"));
+        free.push_back(values.at(parameter.name).at(key::value));
       }
       const auto deadline = plugins::deadline_after(planned.entry->stop.max_time);
       auto around = search::probe_neighbourhood(*planned.assembly, free, deadline);
       if (catalogue) refine(*planned.assembly, *catalogue, free, plugins::LimitedWork("refinement", deadline), around);
       json entry = to_json(around);
-      const double recorded = run.at("best").at("objective"), now = entry.at("objective");
-      entry["run"] = planned.label;
-      entry["recorded"] = recorded;
-      entry["difference"] = now - recorded;
-      entry["identical"] = std::bit_cast<std::uint64_t>(now) == std::bit_cast<std::uint64_t>(recorded);
+      const double recorded = run.at(key::best).at(key::objective), now = entry.at(key::objective);
+      entry[key::run] = planned.label;
+      entry[key::recorded] = recorded;
+      entry[key::difference] = now - recorded;
+      entry[key::identical] = std::bit_cast<std::uint64_t>(now) == std::bit_cast<std::uint64_t>(recorded);
       if (contradictions && around.status.kind() == Status::Kind::failed)
         contradictions->push_back(
             fmt::format("{}: the best point cannot be evaluated: {}", planned.label, around.status.reason()));
@@ -182,7 +187,7 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
     throw InputError(fmt::format("result.json cannot be understood: {}; make it again with `tunica run`",
                                  text::json_problem(problem.what())));
   }
-  const json document = {{"runs", std::move(runs)}};
+  const json document = {{key::runs, std::move(runs)}};
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 
@@ -196,7 +201,7 @@ bool add_certificates(const std::string& certified, const std::string& missing, 
     if (!document.is_discarded()) {
       try {
         const json& entry = run_named(document, run.label);
-        certificate.fresh = {from_json(entry), entry.at("difference"), entry.at("identical")};
+        certificate.fresh = {from_json(entry), entry.at(key::difference), entry.at(key::identical)};
       } catch (const std::exception& problem) {  // another program answered; say so rather than stop
         certificate.missing = problem.what();
       }

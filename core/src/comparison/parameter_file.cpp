@@ -10,11 +10,14 @@
 #include "data/nearest.hpp"
 #include "data/units.hpp"
 #include "execution/files.hpp"
+#include "results/keys.hpp"
 #include "text/escaped.hpp"
 #include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::comparison {
+
+namespace key = results::key;
 
 namespace {
 
@@ -24,15 +27,15 @@ using json = nlohmann::ordered_json;
 /// its name.
 json from_result(const json& document, const std::string& model, std::string& wanted, const std::string& file) {
   std::vector<std::string> known;
-  for (const auto& entry : document.at("ranking"))
-    for (const auto& run : document.at("runs"))
-      if (run.at("run") == entry.at("run") && run.at("model") == model && !run.at("best").is_null()) {
-        known.push_back(run.at("run"));
+  for (const auto& entry : document.at(key::ranking))
+    for (const auto& run : document.at(key::runs))
+      if (run.at(key::run) == entry.at(key::run) && run.at(key::model) == model && !run.at(key::best).is_null()) {
+        known.push_back(run.at(key::run));
         if (!wanted.empty() && known.back() != wanted) continue;
         wanted = known.back();
         json values = json::object();
-        for (const auto& [name, parameter] : run.at("best").at("parameters").items())
-          values[name] = parameter.at("value");
+        for (const auto& [name, parameter] : run.at(key::best).at(key::parameters).items())
+          values[name] = parameter.at(key::value);
         return values;
       }
   if (!wanted.empty() && !known.empty())
@@ -64,7 +67,7 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
   json values;
   try {
     values = detail::parse_json<json>(execution::read_text(path), true, true);
-    if (values.is_object() && values.contains("runs") && values.contains("ranking")) {
+    if (values.is_object() && values.contains(key::runs) && values.contains(key::ranking)) {
       values = from_result(values, model, chosen, file);
       origin = fmt::format("run '{}' of {}", chosen, file);
     } else if (!run.empty()) {

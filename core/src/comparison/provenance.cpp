@@ -15,10 +15,13 @@
 #include <tbb/version.h>
 
 #include "data/sha256.hpp"
+#include "results/keys.hpp"
 #include "tunica/detail/vector_level.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::comparison {
+
+namespace key = results::key;
 
 namespace {
 
@@ -66,11 +69,11 @@ Provenance provenance_of(const experiment::Experiment& experiment, std::vector<s
 nlohmann::ordered_json provenance_json(const Provenance& provenance) {
   auto libraries = nlohmann::ordered_json::object();
   for (const auto& [library, version] : provenance.libraries) libraries[library] = version;
-  return {{"tunica", provenance.version},      {"plugins", provenance.plugins},
-          {"compiler", provenance.compiler},   {"system", provenance.system},
-          {"libraries", std::move(libraries)}, {"vector_level", provenance.vector_level},
-          {"seed", provenance.seed},           {"input_sha256", provenance.input_sha256},
-          {"data", provenance.data},           {"date", provenance.date}};
+  return {{key::tunica, provenance.version},      {key::plugins, provenance.plugins},
+          {key::compiler, provenance.compiler},   {key::system, provenance.system},
+          {key::libraries, std::move(libraries)}, {key::vector_level, provenance.vector_level},
+          {key::seed, provenance.seed},           {key::input_sha256, provenance.input_sha256},
+          {key::data, provenance.data},           {key::date, provenance.date}};
 }
 
 }  // namespace tunica::comparison

@@ -4,8 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "execution/files.hpp"
+#include "results/keys.hpp"
 
 namespace tunica::comparison {
+
+namespace key = results::key;
 
 Simulation simulate_with_fields(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                                 const SimulationRequest& request, const Subject& subject,
@@ -34,24 +37,26 @@ std::filesystem::path write_record(const std::filesystem::path& directory, const
                                    const SimulationRequest& request, const Subject& subject,
                                    const Simulation& simulation) {
   nlohmann::ordered_json record{
-      {"name", experiment.name}, {"model", subject.model}, {"tests", nlohmann::ordered_json::array()}};
-  for (const auto& test : experiment.tests) record["tests"].push_back(test.name);
-  auto& parameters = record["parameters"] = nlohmann::ordered_json::object();
+      {key::name, experiment.name}, {key::model, subject.model}, {key::tests, nlohmann::ordered_json::array()}};
+  for (const auto& test : experiment.tests) record[key::tests].push_back(test.name);
+  auto& parameters = record[key::parameters] = nlohmann::ordered_json::object();
   const auto& free = subject.assembly->layout().parameters;
   for (std::size_t j = 0; j < free.size(); ++j)
-    parameters[free[j].name] = {{"value", subject.free[j]}, {"unit", free[j].unit}};
+    parameters[free[j].name] = {{key::value, subject.free[j]}, {key::unit, free[j].unit}};
   for (const auto& parameter : subject.assembly->layout().fixed_parameters)
-    parameters[parameter.name] = {{"value", parameter.value}, {"unit", parameter.unit}};
-  record["source"] = subject.source;
-  record["origin"] = subject.origin;
-  record["noise"] = request.noise;
-  record["seed"] = request.seed;
-  record["warnings"] = subject.warnings;
-  auto& curves = record["curves"] = nlohmann::ordered_json::array();
+    parameters[parameter.name] = {{key::value, parameter.value}, {key::unit, parameter.unit}};
+  record[key::source] = subject.source;
+  record[key::origin] = subject.origin;
+  record[key::noise] = request.noise;
+  record[key::seed] = request.seed;
+  record[key::warnings] = subject.warnings;
+  auto& curves = record[key::curves] = nlohmann::ordered_json::array();
   for (const SimulatedTable& table : simulation.tables)
     for (const SimulatedTable::Curve& curve : table.curves)
-      curves.push_back(
-          {{"test", table.test}, {"column", curve.column}, {"over", curve.over}, {"prescribed", table.prescribed}});
+      curves.push_back({{key::test, table.test},
+                        {key::column, curve.column},
+                        {key::over, curve.over},
+                        {key::prescribed, table.prescribed}});
   auto file = directory / "simulation.json";
   execution::write_atomically(file, record.dump(2, ' ', false, decltype(record)::error_handler_t::replace) + '\n');
   return file;

@@ -6,9 +6,12 @@
 #include "comparison/stability_map.hpp"
 #include "comparison/stability_report.hpp"
 #include "execution/run_directory.hpp"
+#include "results/keys.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::comparison {
+
+namespace key = results::key;
 
 bool StabilityAnswer::any_assessed() const {
   const auto reached = [](const auto& followed) {
@@ -43,21 +46,21 @@ StabilityAnswer judge_stability(const std::string& name, const Subject& subject,
 }
 
 nlohmann::ordered_json stability_answer_json(const Subject& subject, const StabilityAnswer& answer) {
-  nlohmann::ordered_json document = {{"model", subject.model}, {"origin", subject.origin}};
-  auto& parameters = document["parameters"] = nlohmann::ordered_json::object();
+  nlohmann::ordered_json document = {{key::model, subject.model}, {key::origin, subject.origin}};
+  auto& parameters = document[key::parameters] = nlohmann::ordered_json::object();
   const auto& free = subject.assembly->layout().parameters;
   for (std::size_t i = 0; i < free.size(); ++i)
-    parameters[free[i].name] = {{"value", subject.free[i]}, {"unit", free[i].unit}};
+    parameters[free[i].name] = {{key::value, subject.free[i]}, {key::unit, free[i].unit}};
   for (const auto& fixed : subject.assembly->layout().fixed_parameters)
-    parameters[fixed.name] = {{"value", fixed.value}, {"unit", fixed.unit}};
-  document["warnings"] = subject.warnings;
+    parameters[fixed.name] = {{key::value, fixed.value}, {key::unit, fixed.unit}};
+  document[key::warnings] = subject.warnings;
   const auto stable = answer.found.transversely_stable();
-  document["stable"] = stable ? nlohmann::ordered_json(*stable) : nullptr;
+  document[key::stable] = stable ? nlohmann::ordered_json(*stable) : nullptr;
   RunSummary run;
   run.stability = answer.found;
-  document["stability"] = stability_json(run);
-  for (const char* of_runs : {"imposed", "ratio_to_free"}) document["stability"].erase(of_runs);
-  document["files"] = answer.files;
+  document[key::stability] = stability_json(run);
+  for (const auto of_runs : {key::imposed, key::ratio_to_free}) document[key::stability].erase(of_runs);
+  document[key::files] = answer.files;
   return document;
 }
 

@@ -11,10 +11,13 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/run_differences.hpp"
+#include "results/keys.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 
 namespace tunica::comparison {
+
+namespace key = results::key;
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -63,11 +66,11 @@ json condition(const std::optional<double>& first_lost, const std::string& path,
   const bool any = std::any_of(followed.begin(), followed.end(), [](const auto& one) { return one.to != 1; });
   json paths = json::object();
   for (const auto& one : followed) paths[one.path] = one.to != 1 ? json(one.to) : json(nullptr);
-  return {{"holds", any ? json(!first_lost.has_value()) : json(nullptr)},
-          {"first_lost", first_lost ? json(*first_lost) : json(nullptr)},
-          {"path", path},
-          {"checked_to", reached(followed)},
-          {"paths", std::move(paths)}};
+  return {{key::holds, any ? json(!first_lost.has_value()) : json(nullptr)},
+          {key::first_lost, first_lost ? json(*first_lost) : json(nullptr)},
+          {key::path, path},
+          {key::checked_to, reached(followed)},
+          {key::paths, std::move(paths)}};
 }
 
 json optional_number(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
@@ -75,24 +78,24 @@ json optional_number(const std::optional<double>& value) { return value ? json(*
 json model_json(const StabilitySummary::OfModel& found) {
   json directions = json::array();
   for (const auto& verdict : found.verdict.transverse)
-    directions.push_back({{"direction", direction(verdict.axis)},
-                          {"measured_from", verdict.judged_from < 1 ? json(verdict.judged_from) : json(nullptr)},
-                          {"measured_to", verdict.judged_to > 1 ? json(verdict.judged_to) : json(nullptr)},
-                          {"stable", verdict.stable ? json(*verdict.stable) : json(nullptr)},
-                          {"first_unstable", optional_number(verdict.first_unstable)},
-                          {"stable_again", optional_number(verdict.stable_again)},
-                          {"first_unstable_pressed", optional_number(verdict.first_unstable_pressed)},
-                          {"checked_from", verdict.checked_from},
-                          {"checked_to", verdict.checked_to}});
+    directions.push_back({{key::direction, direction(verdict.axis)},
+                          {key::measured_from, verdict.judged_from < 1 ? json(verdict.judged_from) : json(nullptr)},
+                          {key::measured_to, verdict.judged_to > 1 ? json(verdict.judged_to) : json(nullptr)},
+                          {key::stable, verdict.stable ? json(*verdict.stable) : json(nullptr)},
+                          {key::first_unstable, optional_number(verdict.first_unstable)},
+                          {key::stable_again, optional_number(verdict.stable_again)},
+                          {key::first_unstable_pressed, optional_number(verdict.first_unstable_pressed)},
+                          {key::checked_from, verdict.checked_from},
+                          {key::checked_to, verdict.checked_to}});
   const auto& ellipticity = found.verdict.ellipticity;
   const auto& drucker = found.verdict.drucker;
   const auto& faces = found.verdict.free_faces;
-  return {{"transverse", std::move(directions)},
-          {"ellipticity", condition(ellipticity.first_lost, ellipticity.path, ellipticity.followed)},
-          {"drucker", drucker ? condition(drucker->first_lost, drucker->path, drucker->followed) : json(nullptr)},
-          {"free_faces", faces ? condition(faces->first_lost, faces->path, faces->followed) : json(nullptr)},
-          {"inadmissible", found.inadmissible},
-          {"sentences", found.verdict.sentences()}};
+  return {{key::transverse, std::move(directions)},
+          {key::ellipticity, condition(ellipticity.first_lost, ellipticity.path, ellipticity.followed)},
+          {key::drucker, drucker ? condition(drucker->first_lost, drucker->path, drucker->followed) : json(nullptr)},
+          {key::free_faces, faces ? condition(faces->first_lost, faces->path, faces->followed) : json(nullptr)},
+          {key::inadmissible, found.inadmissible},
+          {key::sentences, found.verdict.sentences()}};
 }
 
 }  // namespace
@@ -227,12 +230,12 @@ std::string stability_table(const Summary& summary) {
 json stability_json(const RunSummary& run) {
   if (!run.stability) return nullptr;
   const auto& found = *run.stability;
-  json result = {{"imposed", found.imposed.empty() ? json(nullptr) : json(found.imposed)},
-                 {"ratio_to_free", optional_number(found.ratio_to_free)}};
+  json result = {{key::imposed, found.imposed.empty() ? json(nullptr) : json(found.imposed)},
+                 {key::ratio_to_free, optional_number(found.ratio_to_free)}};
   if (found.models.size() == 1) {
     result.update(model_json(found.models.front()));
   } else {
-    for (const auto& model : found.models) result["models"][model.name] = model_json(model);
+    for (const auto& model : found.models) result[key::models][model.name] = model_json(model);
   }
   return result;
 }

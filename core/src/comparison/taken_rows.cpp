@@ -9,9 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "data/dataset.hpp"
+#include "results/keys.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::comparison {
+
+namespace key = results::key;
 
 namespace {
 
@@ -55,11 +58,11 @@ nlohmann::ordered_json taken_rows_json(const std::vector<TakenRows>& tests) {
     auto columns = nlohmann::ordered_json::object();
     for (std::size_t c = 0; c < taken.table.headers.size(); ++c)
       columns[taken.table.headers[c]] = taken.table.columns[c];
-    document["tests"][taken.table.test] = {{"columns", std::move(columns)},
-                                           {"prescribed", taken.table.prescribed},
-                                           {"lines", taken.lines},
-                                           {"understood", taken.understood},
-                                           {"warnings", taken.warnings}};
+    document[key::tests][taken.table.test] = {{key::columns, std::move(columns)},
+                                              {key::prescribed, taken.table.prescribed},
+                                              {key::lines, taken.lines},
+                                              {key::understood, taken.understood},
+                                              {key::warnings, taken.warnings}};
   }
   return document;
 }

@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 
 #include "plugins/guarded.hpp"
+#include "results/keys.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::plugins {
+
+namespace key = results::key;
 
 namespace {
 
@@ -36,19 +39,20 @@ const char* word_of(Option::Kind kind) {
 }
 
 json head(const std::string& name, const std::string& doc, const std::string& reference, const std::string& plugin) {
-  return {{"name", name}, {"doc", doc}, {"reference", reference}, {"plugin", plugin}};
+  return {{key::name, name}, {key::doc, doc}, {key::reference, reference}, {key::plugin, plugin}};
 }
 
 json options_json(const std::vector<Option>& options) {
   json list = json::array();
   for (const auto& option : options) {
-    json one = {{"name", option.name}, {"kind", word_of(option.kind)}, {"required", !option.fallback.has_value()}};
-    if (option.fallback) std::visit([&](const auto& value) { one["default"] = value; }, *option.fallback);
-    if (!option.unit.empty()) one["unit"] = option.unit;
-    if (option.min) one["min"] = *option.min;
-    if (option.max) one["max"] = *option.max;
-    if (!option.choices.empty()) one["choices"] = option.choices;
-    one["doc"] = option.doc;
+    json one = {
+        {key::name, option.name}, {key::kind, word_of(option.kind)}, {key::required, !option.fallback.has_value()}};
+    if (option.fallback) std::visit([&](const auto& value) { one[key::default_] = value; }, *option.fallback);
+    if (!option.unit.empty()) one[key::unit] = option.unit;
+    if (option.min) one[key::min] = *option.min;
+    if (option.max) one[key::max] = *option.max;
+    if (!option.choices.empty()) one[key::choices] = option.choices;
+    one[key::doc] = option.doc;
     list.push_back(std::move(one));
   }
   return list;
@@ -58,12 +62,12 @@ json parameters_json(const std::vector<Parameter>& parameters, const std::vector
   json list = json::array();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto& parameter = parameters[i];
-    json one = {{"name", parameter.name},       {"unit", parameter.unit},
-                {"initial", parameter.initial}, {"min", parameter.min},
-                {"max", parameter.max},         {"scale", parameter.scale == Scale::log ? "log" : "linear"}};
-    if (i < nulls.size() && !std::isnan(nulls[i])) one["held_at"] = nulls[i];
-    one["doc"] = parameter.doc;
-    one["reference"] = parameter.reference;
+    json one = {{key::name, parameter.name},       {key::unit, parameter.unit},
+                {key::initial, parameter.initial}, {key::min, parameter.min},
+                {key::max, parameter.max},         {key::scale, parameter.scale == Scale::log ? "log" : "linear"}};
+    if (i < nulls.size() && !std::isnan(nulls[i])) one[key::held_at] = nulls[i];
+    one[key::doc] = parameter.doc;
+    one[key::reference] = parameter.reference;
     list.push_back(std::move(one));
   }
   return list;
@@ -110,32 +114,32 @@ json description_json(const Catalogue::Entry<ModelFactory>& entry) {
   const auto& factory = entry.factory;
   const auto model = plugins::create(entry, any_options(factory.options));
   json document = head(factory.type, factory.doc, factory.reference, entry.plugin);
-  document["parameters"] = parameters_json(model->describe().parameters);
-  document["options"] = options_json(factory.options);
-  if (!model->describe().formula.empty()) document["formula"] = model->describe().formula;
-  document["compressible"] = model->describe().compressible;
-  document["history_size"] = model->describe().history_size;
-  document["energy_parts"] = json::array();
-  for (const auto& part : model->parts()) document["energy_parts"].push_back(part->describe().name);
+  document[key::parameters] = parameters_json(model->describe().parameters);
+  document[key::options] = options_json(factory.options);
+  if (!model->describe().formula.empty()) document[key::formula] = model->describe().formula;
+  document[key::compressible] = model->describe().compressible;
+  document[key::history_size] = model->describe().history_size;
+  document[key::energy_parts] = json::array();
+  for (const auto& part : model->parts()) document[key::energy_parts].push_back(part->describe().name);
   return document;
 }
 
 json description_json(const Catalogue::Entry<TestFactory>& entry) {
   const auto& factory = entry.factory;
   json document = head(factory.type, factory.doc, factory.reference, entry.plugin);
-  document["observables"] = json::array();
+  document[key::observables] = json::array();
   for (const auto& observable : factory.observables)
-    document["observables"].push_back({{"name", observable.name},
-                                       {"unit", observable.unit},
-                                       {"role", observable.role == Observable::Role::abscissa ? "prescribed"
-                                                : observable.role == Observable::Role::time   ? "clock"
-                                                                                              : "measured"},
-                                       {"required", observable.required},
-                                       {"doc", observable.doc}});
+    document[key::observables].push_back({{key::name, observable.name},
+                                          {key::unit, observable.unit},
+                                          {key::role, observable.role == Observable::Role::abscissa ? "prescribed"
+                                                      : observable.role == Observable::Role::time   ? "clock"
+                                                                                                    : "measured"},
+                                          {key::required, observable.required},
+                                          {key::doc, observable.doc}});
   const auto own = parameters_of(entry);
-  document["parameters"] = parameters_json(own.parameters, own.nulls);
-  document["options"] = options_json(factory.options);
-  document["layers"] = factory.layered;
+  document[key::parameters] = parameters_json(own.parameters, own.nulls);
+  document[key::options] = options_json(factory.options);
+  document[key::layers] = factory.layered;
   return document;
 }
 
@@ -144,30 +148,30 @@ json description_json(const Catalogue::Entry<OptimizerFactory>& entry) {
   const auto optimizer = plugins::create(entry, any_options(factory.options));
   const auto needs = plugins::needs(entry.plugin, *optimizer);
   json document = head(factory.type, factory.doc, factory.reference, entry.plugin);
-  document["needs"] = {{"residuals", needs.residuals},
-                       {"gradient", needs.gradient},
-                       {"batch", needs.batch},
-                       {"constraints", needs.constraints},
-                       {"random", needs.random}};
-  document["options"] = options_json(factory.options);
+  document[key::needs] = {{key::residuals, needs.residuals},
+                          {key::gradient, needs.gradient},
+                          {key::batch, needs.batch},
+                          {key::constraints, needs.constraints},
+                          {key::random, needs.random}};
+  document[key::options] = options_json(factory.options);
   return document;
 }
 
 json description_json(const Catalogue::Entry<MechanismFactory>& entry) {
   const auto& factory = entry.factory;
   json document = head(factory.id, factory.cause, factory.reference, entry.plugin);
-  document["parameters"] = parameters_json(factory.parameters);
-  document["null"] = factory.null;
-  document["side"] = factory.side == MechanismFactory::Side::positive ? "positive"
-                     : factory.side == MechanismFactory::Side::both   ? "both"
-                                                                      : "even";
-  document["plausible"] = {factory.plausible_min, factory.plausible_max};
-  document["plausible_effect"] = factory.plausible_effect;
-  document["directional"] = factory.directional;
-  document["applies_to"] = factory.applies_to;
-  document["look_alikes"] = factory.look_alikes;
-  document["isolated_by"] = factory.isolated_by;
-  document["options"] = options_json(factory.options);
+  document[key::parameters] = parameters_json(factory.parameters);
+  document[key::null] = factory.null;
+  document[key::side] = factory.side == MechanismFactory::Side::positive ? "positive"
+                        : factory.side == MechanismFactory::Side::both   ? "both"
+                                                                         : "even";
+  document[key::plausible] = {factory.plausible_min, factory.plausible_max};
+  document[key::plausible_effect] = factory.plausible_effect;
+  document[key::directional] = factory.directional;
+  document[key::applies_to] = factory.applies_to;
+  document[key::look_alikes] = factory.look_alikes;
+  document[key::isolated_by] = factory.isolated_by;
+  document[key::options] = options_json(factory.options);
   return document;
 }
 

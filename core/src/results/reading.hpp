@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-/// Reads the documents that tunica writes, also those of an older program, which may lack anything. A reader names a
-/// key by its constant in results/keys.hpp. A key that the schemas do not declare therefore does not compile.
+/// Reads the documents that tunica writes, also those of an older program, which may lack anything. Readers and writers
+/// name a key by its constant in results/keys.hpp. A key that the schemas do not declare therefore does not compile.
 namespace tunica::results {
 
 using Json = nlohmann::ordered_json;
@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 /// A key of a document. Names that users choose are no keys: entry() looks those up.
 struct Key {
   std::string_view text;
+  operator std::string() const { return std::string(text); }  // NOLINT(google-explicit-constructor): a writer's key
 };
 
 /// The value of a key; null where there is none, or no object.

@@ -6,8 +6,11 @@
 #include "diagnosis/output/fitted_experiment.hpp"
 #include "diagnosis/output/outputs.hpp"
 #include "experiment/reader.hpp"
+#include "results/keys.hpp"
 
 namespace tunica::budget {
+
+namespace key = results::key;
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -21,56 +24,59 @@ const char* belief_code(Belief belief) {
 json budget_json(const Budget& budget) {
   json steps = json::array(), contenders = json::array();
   for (const Step& step : budget.steps)
-    steps.push_back({{"id", step.id},
-                     {"term", step.term},
-                     {"target", diagnosis::place_json(step.place)},
-                     {"group", diagnosis::code_of(step.group)},
-                     {"belief", belief_code(step.belief)},
-                     {"share", step.share},
-                     {"shapley", step.shapley},
-                     {"rms", step.rest.rms},
-                     {"rms_upper", step.rest.upper}});
+    steps.push_back({{key::id, step.id},
+                     {key::term, step.term},
+                     {key::target, diagnosis::place_json(step.place)},
+                     {key::group, diagnosis::code_of(step.group)},
+                     {key::belief, belief_code(step.belief)},
+                     {key::share, step.share},
+                     {key::shapley, step.shapley},
+                     {key::rms, step.rest.rms},
+                     {key::rms_upper, step.rest.upper}});
   for (const Contender& one : budget.contenders)
-    contenders.push_back({{"id", one.id},
-                          {"acts_like", one.sort},
-                          {"term", one.term},
-                          {"target", diagnosis::place_json(one.place)},
-                          {"group", diagnosis::code_of(one.group)},
-                          {"belief", belief_code(one.belief)},
-                          {"share", one.share},
-                          {"probability", one.probability},
-                          {"rms", one.rest.rms}});
-  json result = {{"tolerance", budget.tolerance.share},
-                 {"tolerance_origin", diagnosis::code_of(budget.tolerance.origin)},
-                 {"rms", budget.base.rms},
-                 {"rms_upper", budget.base.upper},
-                 {"steps", std::move(steps)},
-                 {"adequate", budget.adequate},
-                 {"channels", comparison::channel_sizes_json(budget.base_channels)},
-                 {"rest", comparison::channel_sizes_json(budget.rest_channels)}};
-  if (!budget.same_model.empty()) result["same_model"] = {{"type", budget.same_model}, {"with", budget.same_with}};
+    contenders.push_back({{key::id, one.id},
+                          {key::acts_like, one.sort},
+                          {key::term, one.term},
+                          {key::target, diagnosis::place_json(one.place)},
+                          {key::group, diagnosis::code_of(one.group)},
+                          {key::belief, belief_code(one.belief)},
+                          {key::share, one.share},
+                          {key::probability, one.probability},
+                          {key::rms, one.rest.rms}});
+  json result = {{key::tolerance, budget.tolerance.share},
+                 {key::tolerance_origin, diagnosis::code_of(budget.tolerance.origin)},
+                 {key::rms, budget.base.rms},
+                 {key::rms_upper, budget.base.upper},
+                 {key::steps, std::move(steps)},
+                 {key::adequate, budget.adequate},
+                 {key::channels, comparison::channel_sizes_json(budget.base_channels)},
+                 {key::rest, comparison::channel_sizes_json(budget.rest_channels)}};
+  if (!budget.same_model.empty())
+    result[key::same_model] = {{key::type, budget.same_model}, {key::with, budget.same_with}};
   json untried = json::array();
   for (const Budget::Untried& one : budget.not_looked_for) untried.push_back(one.id);
-  if (!untried.empty()) result["not_looked_for"] = std::move(untried);
+  if (!untried.empty()) result[key::not_looked_for] = std::move(untried);
   if (budget.contenders.empty()) return result;
   if (budget.lead)
-    result["lead"] = {{"id", budget.lead->id},
-                      {"acts_like", budget.lead->sort},
-                      {"target", diagnosis::place_json(budget.lead->place)},
-                      {"group", diagnosis::code_of(budget.lead->group)}};
+    result[key::lead] = {{key::id, budget.lead->id},
+                         {key::acts_like, budget.lead->sort},
+                         {key::target, diagnosis::place_json(budget.lead->place)},
+                         {key::group, diagnosis::code_of(budget.lead->group)}};
   if (budget.state) {
     json changes = json::array();
     for (const ProposedState::Change& one : budget.state->changes)
-      changes.push_back(
-          {{"parameter", one.parameter}, {"unit", one.unit}, {"value", one.value}, {"in_state", one.in_state}});
-    result["state"] = {{"name", budget.state->name},
-                       {"test", budget.state->test},
-                       {"share", budget.state->share},
-                       {"changes", std::move(changes)}};
+      changes.push_back({{key::parameter, one.parameter},
+                         {key::unit, one.unit},
+                         {key::value, one.value},
+                         {key::in_state, one.in_state}});
+    result[key::state] = {{key::name, budget.state->name},
+                          {key::test, budget.state->test},
+                          {key::share, budget.state->share},
+                          {key::changes, std::move(changes)}};
   }
-  result["alone"] = std::move(contenders);
-  result["unlisted_probability"] = budget.unlisted_probability;
-  result["rough"] = budget.rough;
+  result[key::alone] = std::move(contenders);
+  result[key::unlisted_probability] = budget.unlisted_probability;
+  result[key::rough] = budget.rough;
   return result;
 }
 

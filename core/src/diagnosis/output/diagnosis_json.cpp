@@ -10,8 +10,11 @@
 #include "diagnosis/naming/credible.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/output/outputs.hpp"
+#include "results/keys.hpp"
 
 namespace tunica::diagnosis {
+
+namespace key = results::key;
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -25,52 +28,54 @@ json or_null(const std::optional<Value>& value) {
 
 json amplitude_json(const Amplitude& amplitude) {
   const bool interval = std::isfinite(amplitude.low) && std::isfinite(amplitude.high);
-  return {{"name", amplitude.name},
-          {"value", amplitude.value},
-          {"unit", amplitude.unit},
-          {"ci95", interval ? json::array({amplitude.low, amplitude.high}) : json(nullptr)},
-          {"plausible", amplitude.plausible}};
+  return {{key::name, amplitude.name},
+          {key::value, amplitude.value},
+          {key::unit, amplitude.unit},
+          {key::ci95, interval ? json::array({amplitude.low, amplitude.high}) : json(nullptr)},
+          {key::plausible, amplitude.plausible}};
 }
 
 json cause_json(const Cause& cause, const Explanation& explanation) {
   json nuisance = json::array(), shifts = json::array();
   for (const Amplitude& one : cause.nuisance) nuisance.push_back(amplitude_json(one));
   for (const Cause::Shift& shift : cause.shifts)
-    shifts.push_back(
-        {{"parameter", shift.name}, {"unit", shift.unit}, {"without", shift.before}, {"with", shift.after}});
-  return {{"id", cause.id},
-          {"group", code_of(cause.group)},
-          {"target", place_json(cause.place)},
-          {"p_value", cause.p_value},
-          {"probability", cause.probability},
-          {"standing", code_of(standing_of(cause, explanation))},
-          {"amplitude", amplitude_json(cause.amplitude)},
-          {"nuisance", std::move(nuisance)},
-          {"retained_fraction", std::min(1.0, cause.retained)},
-          {"gain", cause.gain},
-          {"parameter_shifts", std::move(shifts)},
-          {"claim", "consistent_with"},
-          {"explanation", cause.explanation}};
+    shifts.push_back({{key::parameter, shift.name},
+                      {key::unit, shift.unit},
+                      {key::without, shift.before},
+                      {key::with, shift.after}});
+  return {{key::id, cause.id},
+          {key::group, code_of(cause.group)},
+          {key::target, place_json(cause.place)},
+          {key::p_value, cause.p_value},
+          {key::probability, cause.probability},
+          {key::standing, code_of(standing_of(cause, explanation))},
+          {key::amplitude, amplitude_json(cause.amplitude)},
+          {key::nuisance, std::move(nuisance)},
+          {key::retained_fraction, std::min(1.0, cause.retained)},
+          {key::gain, cause.gain},
+          {key::parameter_shifts, std::move(shifts)},
+          {key::claim, "consistent_with"},
+          {key::explanation, cause.explanation}};
 }
 
 json gain_json(const Gain& gain) {
   json held_out = json::array();
   for (const HeldOut& block : gain.held_out)
-    held_out.push_back({{"block", block.block},
-                        {"rows", block.rows},
-                        {"before", block.before},
-                        {"after", block.after},
-                        {"p_value", block.p_value},
-                        {"verdict", code_of(block.verdict)}});
+    held_out.push_back({{key::block, block.block},
+                        {key::rows, block.rows},
+                        {key::before, block.before},
+                        {key::after, block.after},
+                        {key::p_value, block.p_value},
+                        {key::verdict, code_of(block.verdict)}});
   json best_rejected = nullptr;
   if (gain.best_rejected)
-    best_rejected = {{"id", gain.best_rejected->id}, {"in_sample", gain.before - gain.best_rejected->after}};
-  return {{"in_sample", gain.before - gain.after},
-          {"before", gain.before},
-          {"after", gain.after},
-          {"expected_under_nothing", gain.expected_under_nothing},
-          {"held_out", std::move(held_out)},
-          {"best_wrong", std::move(best_rejected)}};
+    best_rejected = {{key::id, gain.best_rejected->id}, {key::in_sample, gain.before - gain.best_rejected->after}};
+  return {{key::in_sample, gain.before - gain.after},
+          {key::before, gain.before},
+          {key::after, gain.after},
+          {key::expected_under_nothing, gain.expected_under_nothing},
+          {key::held_out, std::move(held_out)},
+          {key::best_wrong, std::move(best_rejected)}};
 }
 
 const char* code_of(NoiseSource::Kind kind) {
@@ -91,42 +96,42 @@ std::vector<Cause> all_causes(const Explanation& explanation) {
 json misfit_json(const std::vector<Misfit>& misfits) {
   json all = json::array();
   for (const Misfit& one : misfits)
-    all.push_back({{"test", one.test},
-                   {"channel", one.channel},
-                   {"where", one.where},
-                   {"from", one.from},
-                   {"to", one.to},
-                   {"p_value", one.p_value}});
+    all.push_back({{key::test, one.test},
+                   {key::channel, one.channel},
+                   {key::where, one.where},
+                   {key::from, one.from},
+                   {key::to, one.to},
+                   {key::p_value, one.p_value}});
   return all;
 }
 
 json detectable_json(const std::vector<Detectable>& detectable) {
   json all = json::array();
   for (const Detectable& one : detectable)
-    all.push_back({{"id", one.id},
-                   {"detectable", finite(one.detectable)},
-                   {"identifiable", finite(one.identifiable)},
-                   {"null", one.null},
-                   {"reach", finite(one.reach)},
-                   {"unit", one.unit},
-                   {"target", place_json(one.place)},
-                   {"retained_fraction", std::min(1.0, one.retained)},
-                   {"closest", one.closest.empty() ? json(nullptr) : json(one.closest)},
-                   {"correlation", one.correlation},
-                   {"absent", one.absent.empty() ? json(nullptr) : json(one.absent)},
-                   {"absence", code_of(one.absence)}});
+    all.push_back({{key::id, one.id},
+                   {key::detectable, finite(one.detectable)},
+                   {key::identifiable, finite(one.identifiable)},
+                   {key::null, one.null},
+                   {key::reach, finite(one.reach)},
+                   {key::unit, one.unit},
+                   {key::target, place_json(one.place)},
+                   {key::retained_fraction, std::min(1.0, one.retained)},
+                   {key::closest, one.closest.empty() ? json(nullptr) : json(one.closest)},
+                   {key::correlation, one.correlation},
+                   {key::absent, one.absent.empty() ? json(nullptr) : json(one.absent)},
+                   {key::absence, code_of(one.absence)}});
   return all;
 }
 
 json ranking_json(const std::vector<RankedMechanism>& ranking) {
   json all = json::array();
   for (const RankedMechanism& one : ranking)
-    all.push_back({{"id", one.id},
-                   {"group", code_of(one.group)},
-                   {"target", place_json(one.place)},
-                   {"probability", one.probability},
-                   {"score", one.score},
-                   {"gain", or_null(one.gain)}});
+    all.push_back({{key::id, one.id},
+                   {key::group, code_of(one.group)},
+                   {key::target, place_json(one.place)},
+                   {key::probability, one.probability},
+                   {key::score, one.score},
+                   {key::gain, or_null(one.gain)}});
   return all;
 }
 
@@ -138,11 +143,11 @@ json scores_json(const Analysis& analysis) {
   for (std::size_t c = 0; c < hypotheses.candidates.size(); ++c) {
     if (detection.direction[c] >= hypotheses.directions.size()) continue;
     const Direction& direction = hypotheses.directions[detection.direction[c]];
-    all.push_back({{"id", hypotheses.candidates[c].id},
-                   {"group", code_of(group_of(*hypotheses.candidates[c].mechanism))},
-                   {"p_value", detection.by_candidate[c]},
-                   {"target", place_json(hypotheses.hypothesis(direction).addition.place)},
-                   {"score", score(direction, -analysis.evidence.fit.residuals).T}});
+    all.push_back({{key::id, hypotheses.candidates[c].id},
+                   {key::group, code_of(group_of(*hypotheses.candidates[c].mechanism))},
+                   {key::p_value, detection.by_candidate[c]},
+                   {key::target, place_json(hypotheses.hypothesis(direction).addition.place)},
+                   {key::score, score(direction, -analysis.evidence.fit.residuals).T}});
   }
   return all;
 }
@@ -153,7 +158,7 @@ json confusable_json(const std::vector<Candidate>& candidates, const Eigen::Matr
     for (std::size_t b = a + 1; b < candidates.size(); ++b) {
       const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
       if (const double c = std::max(alike(i, j), alike(j, i)); c > look_alike)
-        all.push_back({{"id", candidates[a].id}, {"with", candidates[b].id}, {"correlation", c}});
+        all.push_back({{key::id, candidates[a].id}, {key::with, candidates[b].id}, {key::correlation, c}});
     }
   return all;
 }
@@ -161,15 +166,15 @@ json confusable_json(const std::vector<Candidate>& candidates, const Eigen::Matr
 json noise_json(const std::vector<NoiseSource>& sources) {
   json all = json::array();
   for (const NoiseSource& source : sources)
-    all.push_back({{"test", source.test},
-                   {"channel", source.channel},
-                   {"unit", source.unit},
-                   {"source", code_of(source.kind)},
-                   {"absolute", source.noise.absolute},
-                   {"relative", source.noise.relative},
-                   {"correlation", source.noise.correlation},
-                   {"freedom", source.freedom > 0 ? json(source.freedom) : json(nullptr)},
-                   {"neighbours", source.neighbours > 0 ? json(source.neighbours) : json(nullptr)}});
+    all.push_back({{key::test, source.test},
+                   {key::channel, source.channel},
+                   {key::unit, source.unit},
+                   {key::source, code_of(source.kind)},
+                   {key::absolute, source.noise.absolute},
+                   {key::relative, source.noise.relative},
+                   {key::correlation, source.noise.correlation},
+                   {key::freedom, source.freedom > 0 ? json(source.freedom) : json(nullptr)},
+                   {key::neighbours, source.neighbours > 0 ? json(source.neighbours) : json(nullptr)}});
   return all;
 }
 
@@ -177,59 +182,63 @@ json base_json(const Evidence& evidence) {
   json parameters = json::object();
   for (std::size_t j = 0; j < evidence.base->layout().parameters.size(); ++j) {
     const auto& parameter = evidence.base->layout().parameters[j];
-    parameters[parameter.name] = {{"value", evidence.fit.free[j]}, {"unit", parameter.unit}};
+    parameters[parameter.name] = {{key::value, evidence.fit.free[j]}, {key::unit, parameter.unit}};
   }
   const assembly::Misfit misfit = stated_misfit(evidence);
-  return {{"model", evidence.base->models().name(0)},
-          {"misfit", misfit.judged() ? comparison::misfit_json(misfit) : json(nullptr)},
-          {"parameters", std::move(parameters)},
-          {"squares", evidence.fit.chi2},
-          {"rows", evidence.fit.residuals.size()}};
+  return {{key::model, evidence.base->models().name(0)},
+          {key::misfit, misfit.judged() ? comparison::misfit_json(misfit) : json(nullptr)},
+          {key::parameters, std::move(parameters)},
+          {key::squares, evidence.fit.chi2},
+          {key::rows, evidence.fit.residuals.size()}};
 }
 
 json extension_json(const Explanation& explanation) {
   json mechanisms = json::array();
   for (const Addition& addition : explanation.claim.best->additions)
-    mechanisms.push_back({{"type", addition.id}, {"as", addition.name()}, {"target", place_json(addition.place)}});
+    mechanisms.push_back(
+        {{key::type, addition.id}, {key::as, addition.name()}, {key::target, place_json(addition.place)}});
   for (const Cause& row : explanation.left_out)
-    mechanisms.push_back({{"type", row.id}, {"target", place_json(row.place)}});
-  return {{"mechanisms", std::move(mechanisms)}, {"experiment", "extended.json"}};
+    mechanisms.push_back({{key::type, row.id}, {key::target, place_json(row.place)}});
+  return {{key::mechanisms, std::move(mechanisms)}, {key::experiment, "extended.json"}};
 }
 
 json admissibility_json(const Admissibility& admissibility) {
-  return {{"stable", or_null(admissibility.stable)},
-          {"where", admissibility.where.empty() ? json(nullptr) : json(admissibility.where)},
-          {"remedy", admissibility.remedy.empty() ? json(nullptr) : json(admissibility.remedy)}};
+  return {{key::stable, or_null(admissibility.stable)},
+          {key::where, admissibility.where.empty() ? json(nullptr) : json(admissibility.where)},
+          {key::remedy, admissibility.remedy.empty() ? json(nullptr) : json(admissibility.remedy)}};
 }
 
 json file_json(const FileFindings& file) {
   json causes = json::array();
   for (const FileCause& cause : file.causes) {
-    causes.push_back({{"kind", code_of(cause.kind)},
-                      {"tests", cause.tests},
-                      {"sentence", cause.sentence},
-                      {"mend", cause.mend},
-                      {"squares", cause.squares},
-                      {"p_after", cause.p_after},
-                      {"probability", cause.probability},
-                      {"near", cause.near}});
+    causes.push_back({{key::kind, code_of(cause.kind)},
+                      {key::tests, cause.tests},
+                      {key::sentence, cause.sentence},
+                      {key::mend, cause.mend},
+                      {key::squares, cause.squares},
+                      {key::p_after, cause.p_after},
+                      {key::probability, cause.probability},
+                      {key::near, cause.near}});
     for (const Change& change : cause.changes)
-      causes.back()["changes"].push_back({{"op", "add"}, {"path", change.path}, {"value", json::parse(change.value)}});
+      causes.back()[key::changes].push_back(
+          {{key::op, "add"}, {key::path, change.path}, {key::value, json::parse(change.value)}});
     if (cause.mechanism.empty()) continue;
-    causes.back()["mechanism"] = cause.mechanism;
-    for (const Amplitude& amplitude : cause.amplitudes) causes.back()["amplitudes"].push_back(amplitude.value);
+    causes.back()[key::mechanism] = cause.mechanism;
+    for (const Amplitude& amplitude : cause.amplitudes) causes.back()[key::amplitudes].push_back(amplitude.value);
   }
   json suspect = json::array();
-  for (const Suspect& one : file.suspect) suspect.push_back({{"code", one.code}, {"text", one.text}});
-  return {{"suspect", std::move(suspect)}, {"standing", code_of(file.standing)}, {"wrong_files", file.wrong_files},
-          {"tried", file.tried},           {"lead", or_null(file.lead)},         {"causes", std::move(causes)},
-          {"untellable", file.untellable}};
+  for (const Suspect& one : file.suspect) suspect.push_back({{key::code, one.code}, {key::text, one.text}});
+  return {{key::suspect, std::move(suspect)},   {key::standing, code_of(file.standing)},
+          {key::wrong_files, file.wrong_files}, {key::tried, file.tried},
+          {key::lead, or_null(file.lead)},      {key::causes, std::move(causes)},
+          {key::untellable, file.untellable}};
 }
 
 json gross_json(const std::vector<GrossRow>& gross) {
   json rows = json::array();
   for (const GrossRow& row : gross)
-    rows.push_back({{"test", row.test}, {"channel", row.channel}, {"row", row.file_row}, {"residual", row.residual}});
+    rows.push_back(
+        {{key::test, row.test}, {key::channel, row.channel}, {key::row, row.file_row}, {key::residual, row.residual}});
   return rows;
 }
 
@@ -251,19 +260,21 @@ json codes(const std::vector<Reason>& reasons) {
 
 json place_json(const Place& place) {
   if (place.tests.empty() && place.model.empty()) return nullptr;
-  json result = {{"test", place.tests.size() == 1 ? json(place.tests.front()) : json(nullptr)},
-                 {"channel", place.channel.empty() ? json(nullptr) : json(place.channel)}};
-  if (place.tests.size() > 1) result["tests"] = place.tests;
-  if (place.row) result["row"] = place.file_row;
-  if (!place.model.empty()) result["model"] = place.model;
+  json result = {{key::test, place.tests.size() == 1 ? json(place.tests.front()) : json(nullptr)},
+                 {key::channel, place.channel.empty() ? json(nullptr) : json(place.channel)}};
+  if (place.tests.size() > 1) result[key::tests] = place.tests;
+  if (place.row) result[key::row] = place.file_row;
+  if (!place.model.empty()) result[key::model] = place.model;
   return result;
 }
 
 json warning_details(const std::vector<Warning>& warnings) {
   json all = json::array();
   for (const Warning& warning : warnings)
-    all.push_back(
-        {{"kind", code_of(warning.kind)}, {"run", nullptr}, {"subjects", json::array()}, {"sentence", warning.text}});
+    all.push_back({{key::kind, code_of(warning.kind)},
+                   {key::run, nullptr},
+                   {key::subjects, json::array()},
+                   {key::sentence, warning.text}});
   return all;
 }
 
@@ -277,42 +288,43 @@ json diagnosis_json(const Diagnosis& d) {
   for (const Cause& cause : all_causes(explanation)) causes.push_back(cause_json(cause, explanation));
   for (const auto& ids : claim.alternatives)
     if (ids.size() == 2) alternatives.push_back(ids);
-  json result = {{"verdict", code_of(explanation.verdict)},
-                 {"reasons", texts(explanation.reasons)},
-                 {"reason_codes", codes(explanation.reasons)},
-                 {"alpha", d.request.alpha},
-                 {"p_value", alarm.p()},
-                 {"p_smooth", alarm.detection.smooth},
-                 {"p_mechanisms", alarm.detection.mechanisms},
-                 {"misfit", misfit_json(explanation.misfit)},
-                 {"causes", std::move(causes)},
-                 {"ambiguity_set", claim.ambiguity_set},
-                 {"alternatives", std::move(alternatives)},
-                 {"admissibility", admissibility_json(explanation.admissibility)},
-                 {"detectable", detectable_json(d.prospects.detectable)},
-                 {"base", base_json(evidence)},
-                 {"noise", noise_json(evidence.noise)},
-                 {"scores", scores_json(analysis)},
-                 {"ranking", ranking_json(explanation.ranking)},
-                 {"confusable", confusable_json(analysis.hypotheses.candidates,
-                                                likeness(analysis.hypotheses, explanation.best_direction))}};
-  if (alarm.p_is_bound()) result["p_value_is_bound"] = true;
-  if (explanation.file.wrong_files > 0) result["file"] = file_json(explanation.file);
-  if (claim.best) result["extension"] = extension_json(explanation);
-  if (d.prospects.gain) result["gain"] = gain_json(*d.prospects.gain);
-  if (!evidence.gross.empty()) result["left_out"] = gross_json(evidence.gross);
-  if (!claim.look_alikes.empty()) result["look_alikes"] = claim.look_alikes;
-  if (!claim.causes.empty()) result["explanations"] = explanations(claim);
-  if (explanation.unlisted) result["unlisted"] = true;
+  json result = {{key::verdict, code_of(explanation.verdict)},
+                 {key::reasons, texts(explanation.reasons)},
+                 {key::reason_codes, codes(explanation.reasons)},
+                 {key::alpha, d.request.alpha},
+                 {key::p_value, alarm.p()},
+                 {key::p_smooth, alarm.detection.smooth},
+                 {key::p_mechanisms, alarm.detection.mechanisms},
+                 {key::misfit, misfit_json(explanation.misfit)},
+                 {key::causes, std::move(causes)},
+                 {key::ambiguity_set, claim.ambiguity_set},
+                 {key::alternatives, std::move(alternatives)},
+                 {key::admissibility, admissibility_json(explanation.admissibility)},
+                 {key::detectable, detectable_json(d.prospects.detectable)},
+                 {key::base, base_json(evidence)},
+                 {key::noise, noise_json(evidence.noise)},
+                 {key::scores, scores_json(analysis)},
+                 {key::ranking, ranking_json(explanation.ranking)},
+                 {key::confusable, confusable_json(analysis.hypotheses.candidates,
+                                                   likeness(analysis.hypotheses, explanation.best_direction))}};
+  if (alarm.p_is_bound()) result[key::p_value_is_bound] = true;
+  if (explanation.file.wrong_files > 0) result[key::file] = file_json(explanation.file);
+  if (claim.best) result[key::extension] = extension_json(explanation);
+  if (d.prospects.gain) result[key::gain] = gain_json(*d.prospects.gain);
+  if (!evidence.gross.empty()) result[key::left_out] = gross_json(evidence.gross);
+  if (!claim.look_alikes.empty()) result[key::look_alikes] = claim.look_alikes;
+  if (!claim.causes.empty()) result[key::explanations] = explanations(claim);
+  if (explanation.unlisted) result[key::unlisted] = true;
   if (claim.best) {
-    result["p_after"] = explanation.p_after;
-    result["remainder"] = is_clean(explanation.p_after) ? "clean" : "not_clean";
+    result[key::p_after] = explanation.p_after;
+    result[key::remainder] = is_clean(explanation.p_after) ? "clean" : "not_clean";
   }
-  if (alarm.factor) result["alarm_factor"] = *alarm.factor;
-  if (explanation.noise_factor) result["noise_factor"] = *explanation.noise_factor;
+  if (alarm.factor) result[key::alarm_factor] = *alarm.factor;
+  if (explanation.noise_factor) result[key::noise_factor] = *explanation.noise_factor;
   if (const auto& next = d.prospects.next)
-    result["next_experiment"] = {
-        {"description", next->description}, {"separates", next->separates}, {"repeats", or_null(next->repeats)}};
+    result[key::next_experiment] = {{key::description, next->description},
+                                    {key::separates, next->separates},
+                                    {key::repeats, or_null(next->repeats)}};
   return result;
 }
 
@@ -329,18 +341,18 @@ std::string result_document(const Diagnosis& d, const experiment::Experiment& ex
     plugins.insert(catalogue.mechanisms().at(candidate.id).plugin);
   const std::vector<Warning> warnings = d.warnings();
   json document = {
-      {"format", 1},
-      {"name", experiment.name},
-      {"warnings", texts(warnings)},
-      {"warning_details", warning_details(warnings)},
-      {"ranking", json::array()},
-      {"identifiability", json::array()},
-      {"runs", json::array()},
-      {"diagnosis", diagnosis_json(d)},
-      {"provenance", comparison::provenance_json(comparison::provenance_of(experiment, {plugins.begin(), plugins.end()},
-                                                                           evidence.base->layout().data_hashes))}};
+      {key::format, 1},
+      {key::name, experiment.name},
+      {key::warnings, texts(warnings)},
+      {key::warning_details, warning_details(warnings)},
+      {key::ranking, json::array()},
+      {key::identifiability, json::array()},
+      {key::runs, json::array()},
+      {key::diagnosis, diagnosis_json(d)},
+      {key::provenance, comparison::provenance_json(comparison::provenance_of(
+                            experiment, {plugins.begin(), plugins.end()}, evidence.base->layout().data_hashes))}};
   document.update(more);
-  document["diagnosis"].update(of_diagnosis);
+  document[key::diagnosis].update(of_diagnosis);
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 

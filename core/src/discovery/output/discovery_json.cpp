@@ -3,27 +3,30 @@
 
 #include "discovery/output/outputs.hpp"
 #include "discovery/output/parts.hpp"
+#include "results/keys.hpp"
 
 namespace tunica::discovery {
+
+namespace key = results::key;
 namespace {
 
 using json = nlohmann::ordered_json;
 
 json term_json(const FoundTerm& term) {
-  json one = {{"name", term.name}};
+  json one = {{key::name, term.name}};
   one.update(kind_json(*term.kind));
-  one["closed"] = term.kind->law != "spline";
-  one["probability"] = term.probability;
-  one["invariant_probability"] = term.invariant_probability;
+  one[key::closed] = term.kind->law != "spline";
+  one[key::probability] = term.probability;
+  one[key::invariant_probability] = term.invariant_probability;
   for (const diagnosis::Amplitude& parameter : term.parameters)
-    one["parameters"][parameter.name] = {{"value", parameter.value},
-                                         {"low", parameter.low},
-                                         {"high", parameter.high},
-                                         {"unit", parameter.unit},
-                                         {"at_bound", parameter.at_bound}};
-  one["curve"] = {{"x", term.curve.x},     {"slope", term.curve.slope},
-                  {"low", term.curve.low}, {"high", term.curve.high},
-                  {"unit", "kPa"},         {"reach", {term.kind->reach.low, term.kind->reach.high}}};
+    one[key::parameters][parameter.name] = {{key::value, parameter.value},
+                                            {key::low, parameter.low},
+                                            {key::high, parameter.high},
+                                            {key::unit, parameter.unit},
+                                            {key::at_bound, parameter.at_bound}};
+  one[key::curve] = {{key::x, term.curve.x},     {key::slope, term.curve.slope},
+                     {key::low, term.curve.low}, {key::high, term.curve.high},
+                     {key::unit, "kPa"},         {key::reach, {term.kind->reach.low, term.kind->reach.high}}};
   return one;
 }
 
@@ -31,24 +34,24 @@ json term_json(const FoundTerm& term) {
 
 json discovery_json(const Discovery& d) {
   json result = answer_json(d.request, d.judgement);
-  result["p_before"] = d.request.from_nothing ? json(nullptr) : json(d.analysis.alarm.p());
-  result["p_after"] = d.p_after;
-  result["chi2_before"] = d.request.from_nothing ? json(nullptr) : json(d.chi2_before);
-  result["chi2_after"] = d.chi2_after;
-  result["rows"] = d.analysis.evidence.fit.residuals.size();
-  result["sets_fitted"] = d.sets_tried;
-  result["terms"] = json::array();
-  for (const FoundTerm& term : d.terms) result["terms"].push_back(term_json(term));
-  result["path_dependence"] = paths_json(d.paths);
-  result["held_out"] = json::array();
+  result[key::p_before] = d.request.from_nothing ? json(nullptr) : json(d.analysis.alarm.p());
+  result[key::p_after] = d.p_after;
+  result[key::chi2_before] = d.request.from_nothing ? json(nullptr) : json(d.chi2_before);
+  result[key::chi2_after] = d.chi2_after;
+  result[key::rows] = d.analysis.evidence.fit.residuals.size();
+  result[key::sets_fitted] = d.sets_tried;
+  result[key::terms] = json::array();
+  for (const FoundTerm& term : d.terms) result[key::terms].push_back(term_json(term));
+  result[key::path_dependence] = paths_json(d.paths);
+  result[key::held_out] = json::array();
   for (const diagnosis::HeldOut& block : d.held_out)
-    result["held_out"].push_back({{"block", block.block},
-                                  {"rows", block.rows},
-                                  {"before", block.before},
-                                  {"after", block.after},
-                                  {"p_value", block.p_value},
-                                  {"verdict", diagnosis::code_of(block.verdict)}});
-  if (!d.next.empty()) result["next_experiment"] = {{"description", d.next}};
+    result[key::held_out].push_back({{key::block, block.block},
+                                     {key::rows, block.rows},
+                                     {key::before, block.before},
+                                     {key::after, block.after},
+                                     {key::p_value, block.p_value},
+                                     {key::verdict, diagnosis::code_of(block.verdict)}});
+  if (!d.next.empty()) result[key::next_experiment] = {{key::description, d.next}};
   return result;
 }
 

@@ -12,9 +12,12 @@
 
 #include "comparison/result_json.hpp"
 #include "diagnosis/output/outputs.hpp"
+#include "results/keys.hpp"
 #include "text/wrapping.hpp"
 
 namespace tunica::discovery {
+
+namespace key = results::key;
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -22,13 +25,13 @@ using json = nlohmann::ordered_json;
 json alternative_json(const Alternative& alternative) {
   json one = json::object();
   if (alternative.mechanism.empty()) {
-    one["terms"] = json::array();
-    for (const KindPointer& kind : alternative.kinds) one["terms"].push_back(kind_json(*kind));
+    one[key::terms] = json::array();
+    for (const KindPointer& kind : alternative.kinds) one[key::terms].push_back(kind_json(*kind));
   } else {
     one[alternative.remembers ? "memory" : "rig"] = json::array({alternative.mechanism});
   }
-  one["probability"] = alternative.probability;
-  one["chi2"] = alternative.chi2;
+  one[key::probability] = alternative.probability;
+  one[key::chi2] = alternative.chi2;
   return one;
 }
 
@@ -42,30 +45,31 @@ std::string capitals(diagnosis::Verdict verdict) {
 }  // namespace
 
 json kind_json(const Kind& kind) {
-  json one = {{"invariant", kind.invariant}};
-  if (!kind.family.empty()) one["family"] = kind.family;
-  one["law"] = kind.law;
-  if (!kind.knots.empty()) one["knots"] = kind.knots;
+  json one = {{key::invariant, kind.invariant}};
+  if (!kind.family.empty()) one[key::family] = kind.family;
+  one[key::law] = kind.law;
+  if (!kind.knots.empty()) one[key::knots] = kind.knots;
   return one;
 }
 
 json answer_json(const Request& request, const Judgement& judgement) {
-  json result = {{"verdict", diagnosis::code_of(judgement.verdict)}};
-  result["reasons"] = json::array();
+  json result = {{key::verdict, diagnosis::code_of(judgement.verdict)}};
+  result[key::reasons] = json::array();
   for (const Reason& reason : judgement.reasons)
-    result["reasons"].push_back({{"code", code_of(reason.kind)}, {"text", reason.text}});
-  result["base"] = request.from_nothing ? json(nullptr) : json(request.model);
-  result["model"] = request.model;
-  result["alpha"] = request.alpha;
-  result["ambiguity_set"] = json::array();
+    result[key::reasons].push_back({{key::code, code_of(reason.kind)}, {key::text, reason.text}});
+  result[key::base] = request.from_nothing ? json(nullptr) : json(request.model);
+  result[key::model] = request.model;
+  result[key::alpha] = request.alpha;
+  result[key::ambiguity_set] = json::array();
   for (const Alternative& alternative : judgement.ambiguity)
-    result["ambiguity_set"].push_back(alternative_json(alternative));
-  if (judgement.name) result["name_of_the_catalogue"] = {{"id", judgement.name->id}, {"chi2", judgement.name->chi2}};
+    result[key::ambiguity_set].push_back(alternative_json(alternative));
+  if (judgement.name)
+    result[key::name_of_the_catalogue] = {{key::id, judgement.name->id}, {key::chi2, judgement.name->chi2}};
   return result;
 }
 
 json paths_json(const PathDependence& paths) {
-  return {{"p_value", paths.p_value}, {"share", paths.share}, {"where", paths.where}};
+  return {{key::p_value, paths.p_value}, {key::share, paths.share}, {key::where, paths.where}};
 }
 
 std::string document(const std::string& name, const std::vector<diagnosis::Warning>& warnings, json discovery,
@@ -78,16 +82,16 @@ std::string document(const std::string& name, const std::vector<diagnosis::Warni
     plugins.insert(catalogue.tests().find(experiment.test(test).type)->second.plugin);
   json texts = json::array();
   for (const diagnosis::Warning& warning : warnings) texts.push_back(warning.text);
-  const json whole = {{"format", 1},
-                      {"name", name},
-                      {"warnings", texts},
-                      {"warning_details", diagnosis::warning_details(warnings)},
-                      {"ranking", json::array()},
-                      {"identifiability", json::array()},
-                      {"runs", json::array()},
-                      {"discovery", std::move(discovery)},
-                      {"provenance", comparison::provenance_json(comparison::provenance_of(
-                                         experiment, {plugins.begin(), plugins.end()}, data_hashes))}};
+  const json whole = {{key::format, 1},
+                      {key::name, name},
+                      {key::warnings, texts},
+                      {key::warning_details, diagnosis::warning_details(warnings)},
+                      {key::ranking, json::array()},
+                      {key::identifiability, json::array()},
+                      {key::runs, json::array()},
+                      {key::discovery, std::move(discovery)},
+                      {key::provenance, comparison::provenance_json(comparison::provenance_of(
+                                            experiment, {plugins.begin(), plugins.end()}, data_hashes))}};
   return whole.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 
