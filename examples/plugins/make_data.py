@@ -82,6 +82,30 @@ def fibre_damage():
           "a circumferential strip, loaded and unloaded", ["stretch [1]", "stress [kPa]"], rows, 3, [0, 0.2])
 
 
+def angular_fibres():
+    mu, k1, k2, theta, b, count = 10.0, 30.0, 1.2, 50.0, 2.5, 720  # a finer sum than the plugin's
+
+    mean = math.radians(theta)
+    turns = [math.pi * k / count for k in range(count)]
+    density = [math.exp(b * math.cos(2 * (at - mean))) + math.exp(b * math.cos(2 * (at + mean))) for at in turns]
+
+    def cauchy(t, z):
+        along = [mu - mu / (t * z) ** 2 / t**2, mu - mu / (t * z) ** 2 / z**2]
+        for at, weight in zip(turns, density):
+            s2, c2 = math.sin(at) ** 2, math.cos(at) ** 2
+            e = t * t * s2 + z * z * c2 - 1
+            if e > 0:
+                slope = 2 * weight / sum(density) * k1 * e * math.exp(k2 * e * e)
+                along = [along[0] + slope * s2, along[1] + slope * c2]
+        return t * t * along[0], z * z * along[1]
+
+    rows = [(1 + 0.3 * t * s, 1 + 0.3 * z * s) for t, z in [(1.0, 1.0), (1.0, 0.4), (0.4, 1.0)] for s in steps(0.05, 1, 20)]
+    write("angular_fibres/sheet.csv",
+          f"mu = {mu} kPa, k1 = {k1} kPa, k2 = {k2}, theta = {theta} deg, b = {b}, {count} angles, three ratios of strain",
+          ["stretch_circumferential [1]", "stretch_axial [1]", "stress_circumferential [kPa]", "stress_axial [kPa]"],
+          [(t, z, *cauchy(t, z)) for t, z in rows], 9, [0, 0, 0.2, 0.2])
+
+
 def bulge():
     mu, radius, thickness = 400.0, 25.0, 1.5
     rows = []
@@ -114,5 +138,5 @@ def grip_compliance():
           ["stretch [1]", "stress [kPa]"], rows, 8, [0, 1.5])
 
 
-for make in (demiray, fung, fibre_damage, bulge, pattern_search, grip_compliance):
+for make in (demiray, fung, fibre_damage, angular_fibres, bulge, pattern_search, grip_compliance):
     make()

@@ -22,7 +22,7 @@ ask.add_argument("part")
 told = ask.parse_args()
 prefix = told.work / "moved/tunica"
 program = prefix / "bin/tunica"
-examples = ["demiray", "fung_exponential", "fibre_damage", "bulge", "pattern_search", "grip_compliance"]
+examples = ["demiray", "fung_exponential", "fibre_damage", "angular_fibres", "bulge", "pattern_search", "grip_compliance"]
 os.umask(0o022)  # a plugin that others could change is refused
 os.environ.pop("TUNICA_PLUGIN_PATH", None)
 

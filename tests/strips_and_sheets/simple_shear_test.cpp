@@ -12,7 +12,8 @@ namespace tunica::testing::shear_test {
 namespace {
 
 std::unique_ptr<Test> make_shear(const std::string& direction, const std::string& normal,
-                                 const std::vector<double>& shear, double angle = 0) {
+                                 const std::vector<double>& shear, double angle = 0,
+                                 const std::vector<double>& time = {}) {
   TestSetup setup;
   setup.options.set("direction", direction);
   setup.options.set("normal", normal);
@@ -20,6 +21,7 @@ std::unique_ptr<Test> make_shear(const std::string& direction, const std::string
   setup.rows.count = shear.size();
   setup.rows.abscissae = {{"shear", shear}};
   setup.rows.channels = {"shear_stress", "normal_stress"};
+  setup.rows.time = time;
   return plugins::create(catalogue().tests().at("simple_shear"), setup);
 }
 
@@ -74,6 +76,18 @@ TEST(SimpleShear, DoesTheWorkThatTheEnergyGains) {
       EXPECT_NEAR(values[i], slope, 1e-6 * (1 + std::abs(slope))) << direction << ", " << normal;
     }
   });
+}
+
+TEST(SimpleShear, RelaxesAtConstantShearAsTheClosedFormDoes) {
+  // Held at once from rest: τ(t) = (1 + g e^{−t/τ}) μ γ.
+  constexpr double mu = 12, g = 0.8, tau = 5, shear = 0.4;
+  const std::vector<double> time{0, 0.5, 2, 10, 200}, held(5, shear);
+  const auto viscous = plugins::wrap(catalogue().mechanisms().at("viscoelasticity"), make_model("neo_hooke"), {});
+  const auto values = stresses(*make_shear("axial", "radial", held, 0, time), *viscous, {mu, g, tau});
+  for (std::size_t i = 0; i < time.size(); ++i)
+    EXPECT_NEAR(values[i], (1 + g * std::exp(-time[i] / tau)) * mu * shear, 1e-10);
+  for (std::size_t i = 0; i < time.size(); ++i)  // without a clock: at equilibrium
+    EXPECT_NEAR(stresses(*make_shear("axial", "radial", held), *viscous, {mu, g, tau})[i], mu * shear, 1e-10);
 }
 
 TEST(SimpleShear, RefusesAPlateThatSlidesAlongItsNormal) {

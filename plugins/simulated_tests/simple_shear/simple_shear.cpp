@@ -35,6 +35,7 @@ struct SimpleShear {
     using Role = Observable::Role;
     return {
         {"shear", "1", Role::abscissa, true, "Displacement of the plate over the distance of the plates."},
+        {"time", "s", Role::time, false, "Time since the unloaded state."},
         {"shear_stress", "kPa", Role::channel, false, "Force along the plate over its area."},
         {"normal_stress", "kPa", Role::channel, false, "Force across the plate over its area; tension is positive."}};
   }
