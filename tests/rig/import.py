@@ -132,6 +132,18 @@ printed, _ = rig.tunica(program, "check", folder / "sheet.json", "--json")
 channels = {one["observable"]: one["range"] for one in json.loads(printed)["problems"][0]["channels"]}
 assert abs(channels["stress_circumferential"][1] - 500 / 5) < 1e-9 and abs(channels["stress_axial"][1] - 1000 / 10) < 1e-9
 
+# A membrane whose table has tensions, in force per length.
+membrane = table("membrane.csv", ["stretch_x [1],stretch_y [1],Tx [N/m],Ty [N/m]"] + [
+    f"{1 + 0.05 * k},{1 + 0.1 * k},{10 * k},{20 * k}" for k in range(6)])
+experiment, said = imported(membrane, "--thickness", "0.5 mm")
+entry = experiment["tests"]["membrane"]
+assert entry["type"] == "biaxial" and entry["data"]["specimen"] == {"width": "1 m", "thickness": "0.5 mm"}, entry
+assert entry["data"]["units"] == {"Tx": "N", "Ty": "N"} and "a force per length of the unloaded edge" in said, said
+printed, _ = rig.tunica(program, "check", folder / "membrane.json", "--json")
+channels = {one["observable"]: one["range"] for one in json.loads(printed)["problems"][0]["channels"]}
+# 50 N/m over 0.5 mm are 100 kPa.
+assert abs(channels["stress_circumferential"][1] - 100) < 1e-9 and abs(channels["stress_axial"][1] - 200) < 1e-9
+
 # The murine tubes of the examples as their authors published them.
 murine = pathlib.Path(sources) / "examples" / "murine_tube"
 example = json.loads("\n".join(line for line in (murine / "experiment.json").read_text().splitlines()

@@ -119,6 +119,24 @@ const Word* meaning(const ColumnGuess& guess, const Words& words) {
   return nullptr;
 }
 
+/// A force per length, as the tension of a membrane: "Tx [N/m]".
+bool guess_tension(ColumnGuess& guess, const Words& words) {
+  const std::size_t slash = guess.unit.find('/');
+  if (slash == std::string::npos || !measures(guess.unit, "N/m")) return false;
+  const std::string force = guess.unit.substr(0, slash), length = guess.unit.substr(slash + 1);
+  if (!measures(force, "mN") || !measures(length, "mm")) return false;
+  const bool x = has_any(words, {"=tx", "=t1", "=t11", "=nx", "=n1", "=n11"});
+  const bool y = has_any(words, {"=ty", "=t2", "=t22", "=ny", "=n2", "=n22"});
+  if (!x && !y && !has_any(words, {"tension", "force", "load", "stress", "kraft", "spannung", "=t", "=n"}))
+    return false;
+  guess.kind = guess.quantity = "force";
+  guess.unit = force;
+  guess.per_length = "1 " + length;
+  guess.unit_from_name = true;
+  guess.direction = x ? "circumferential" : y ? "axial" : direction_in(words);
+  return true;
+}
+
 void guess_quantity(ColumnGuess& guess, const Words& words) {
   guess.set_point = has_any(
       words, {"sollwert", "=soll", "=set", "setpoint", "command", "=cmd", "demand", "=target", "consigne", "consigna"});
@@ -146,6 +164,7 @@ void guess_quantity(ColumnGuess& guess, const Words& words) {
     guess.kind = "cycle";
     return;
   }
+  if (guess_tension(guess, words)) return;
   const Word* const word = meaning(guess, words);
   if (word == nullptr) return;
   guess.kind = word->quantity;

@@ -29,6 +29,7 @@ struct ColumnGuess {
   std::string direction;            ///< "circumferential", "axial" or empty
   std::string measure;              ///< of a strain or a stress, where the name says it: "true", "green", "cauchy", …
   std::string unit;                 ///< as the file has it; empty = none
+  std::string per_length;           ///< "1 m" of a force per metre, the unit then being that of the force; else empty
   bool unit_from_name = false;      ///< "Force_N": the file does not say it in a way that the data block reads
   bool indexed = false;             ///< "E11", "exx": a component of a tensor, and no word says of which
   bool compression = false;         ///< the name speaks of compression

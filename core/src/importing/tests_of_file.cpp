@@ -198,6 +198,17 @@ class File {
     } else if (needs({From::force, From::plate_force}) && answers_.width.empty() && !table.area.empty()) {
       specimen["area"] = table.area;
     } else if (needs({From::force, From::plate_force})) {
+      const auto tension = std::find_if(mapped_.begin(), mapped_.end(), [&](const auto& one) {
+        return !columns_[csv_.column(one.second)].per_length.empty();
+      });
+      if (tension != mapped_.end() && answers_.width.empty()) {
+        const ColumnGuess& column = columns_[csv_.column(tension->second)];
+        table.width = column.per_length;
+        note(
+            "'{}' is a force per length of the unloaded edge, and the thickness makes it a nominal stress; where the "
+            "length is that of the loaded edge, it is none",
+            column.title);
+      }
       size("width", answers_.width, table.width,
            {fmt::format(
                 "Width of the specimen of {} across the force, with its unit; of a cylinder --diameter, of another "
