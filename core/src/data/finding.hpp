@@ -18,7 +18,7 @@ enum class FindingKind {
   record_time,       ///< a duration or a rate that no such test has
   record_short,      ///< hardly any deformation
   record_percent,    ///< percent where a fraction is read
-  record_size,       ///< the unloaded tube is not the one of the file
+  record_size,       ///< the unloaded specimen is not the one of the file
   record_angle,      ///< radians where degrees are read
   record_noise,      ///< a noise as large as what is measured
   header_measure,    ///< the header speaks of another stress measure

@@ -32,6 +32,18 @@ void look_along(const Node& node, const data::Sizes& sizes, std::string_view own
   look("grip_distance", sizes.grip_distance);
 }
 
+/// The smaller side of a section is its thickness.
+void look_at_section(const Node& node, const data::Specimen& specimen, const data::Sizes& sizes, std::string_view owner,
+                     std::vector<data::Finding>& findings) {
+  if (!specimen.thickness || !sizes.width || *specimen.thickness <= *sizes.width) return;
+  if (*specimen.thickness > largest || *sizes.width < smallest) return;  // said above
+  findings.push_back(
+      {data::FindingKind::record_size,
+       fmt::format("{}: {} is {:.4g} mm thick and {:.4g} mm wide. Is the unit of the thickness right, or "
+                   "are the two exchanged?",
+                   node.place(), owner, *specimen.thickness, *sizes.width)});
+}
+
 }  // namespace
 
 std::vector<data::Finding> odd_sizes(const Node& entry, const TestEntry& test, const std::vector<Option>& options,
@@ -54,8 +66,11 @@ std::vector<data::Finding> odd_sizes(const Node& entry, const TestEntry& test, c
   look("height", specimen.height, 1);
   look("area", specimen.area, 2);
   look_along(*node, specimen.all, owner, findings);
-  for (const auto& [direction, sizes] : specimen.directions)
+  look_at_section(node->child_or_self("thickness"), specimen, specimen.all, owner, findings);
+  for (const auto& [direction, sizes] : specimen.directions) {
     look_along(node->child_or_self(direction), sizes, owner, findings);
+    look_at_section(node->child_or_self(direction), specimen, sizes, owner, findings);
+  }
   return findings;
 }
 
