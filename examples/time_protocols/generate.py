@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""generate.py: relaxation, creep with recovery, and a frequency sweep of one rubber with two Maxwell branches, without
-tunica. Relaxation and oscillation are closed forms, creep is integrated in steps of 1/400 of a row. Noise: 1 %."""
+"""generate.py: relaxation, creep with recovery, and sweeps of frequency and amplitude of one rubber with two Maxwell
+branches, without tunica. Relaxation and the frequency sweep are closed forms; creep is integrated in steps of 1/400 of a
+row, finite cycles in steps of 1/2000 of a cycle. Noise: 1 %."""
+import cmath
 import math
 import pathlib
 import random
@@ -61,6 +63,19 @@ class Creep:
         self.h, self.stretch = self.overstress(low, dt), low
 
 
+def harmonic(amplitude, frequency, cycles=20, parts=2000):
+    """The first harmonic of the nominal stress over the last cycle of λ = 1 + a sin ωt, over a."""
+    strip, total, dt = Creep(), 0, 1 / frequency / parts
+    for k in range(cycles * parts):
+        phase = 2 * math.pi * (k + 1) / parts
+        stretch = 1 + amplitude * math.sin(phase)
+        nominal = strip.nominal(stretch, dt)
+        strip.h, strip.stretch = strip.overstress(stretch, dt), stretch
+        if k >= (cycles - 1) * parts:
+            total += nominal * cmath.exp(-1j * phase)
+    return 2j * total / parts / amplitude
+
+
 def write(name, head, rows):
     lines = [",".join(f"{value:.8g}" for value in row) for row in rows]
     (HERE / name).write_text("\n".join([head, *lines]) + "\n", encoding="utf-8")
@@ -89,3 +104,7 @@ for start, load in ((0.0, 20.0), (100.0, 0.0)):
         now = 100.0
         rows.append((now, 20.0, 1 + measured(creep.stretch - 1)))
 write("creep.csv", "time [s],nominal_stress [kPa],stretch [1]", rows)
+
+write("amplitude.csv", "strain [1],frequency [Hz],storage [kPa],loss [kPa]",
+      [(a, f, measured(modulus.real), measured(modulus.imag)) for f in (0.02, 0.2) for a in (0.02, 0.05, 0.1, 0.2, 0.3, 0.4)
+       for modulus in [harmonic(a, f, cycles=round(10 + 300 * f))]])

@@ -38,6 +38,19 @@ class Problems(Case):
                 slope = (problem.objective(x + step) - problem.objective(x - step)) / (2 * step[j])
                 self.assertAlmostEqual(1, problem.gradient(x)[j] / slope, 5)
 
+    def test_moduli_of_finite_cycles_are_those_that_a_strip_has_in_time(self):
+        folder = EXAMPLES / "time_protocols"
+        experiment = tunica.read(folder / "experiment.json").input
+        experiment["runs"] = [{"model": "rubber", "optimizer": "lm", "tests": ["amplitudes"]}]
+        problem = tunica.Problem(experiment, base=folder)
+        truth = problem.vector({"mu": 20, "fast.g": 0.8, "fast.tau": 1, "slow.g": 0.5, "slow.tau": 30})
+        # The 24 moduli are those of generate.py, with 1 % noise: chi squared has mean 24 and standard deviation 7.
+        self.assertLess(abs(problem.objective(truth) - 24), 21)
+        linear = {**experiment, "tests": {"amplitudes": {**experiment["tests"]["amplitudes"]}}}
+        data = linear["tests"]["amplitudes"]["data"] = dict(linear["tests"]["amplitudes"]["data"])
+        data["columns"] = {name: column for name, column in data["columns"].items() if name != "strain_amplitude"}
+        self.assertGreater(tunica.Problem(linear, base=folder).objective(truth), 500)  # moduli of small oscillations
+
     @unittest.skipUnless(scipy, "python3-scipy is not installed")
     def test_scipy_finds_what_tunica_finds(self):
         for model in ("mooney_rivlin", "yeoh"):
