@@ -51,7 +51,7 @@ SUBJECTS = [
      ["core/src/plugins/"]),
     ("Writing a plugin", "What the SDK says where it is not used as its headers have it.",
      ["core/include/tunica/models/", "core/include/tunica/options",
-      "core/include/tunica/model", "core/include/tunica/test"]),
+      "core/include/tunica/model", "core/include/tunica/test", "core/include/tunica/detail/point_rows"]),
     ("`tunica plugin check`", "Told beside the property that could not be checked.", ["core/src/conformance/"]),
     ("Models and mechanisms", "", ["plugins/models/", "plugins/mechanisms/"]),
     ("Tests", "A message with a row is a failed evaluation, the others are wrong input.", ["plugins/simulated_tests/"]),
