@@ -124,7 +124,7 @@ void add_import(CLI::App& app, GlobalOptions& global, Action& action) {
        "Sign that compression has in the file, or in one column; may be repeated", "[COLUMN=]positive|negative");
   list("--set", options->options, "Option of the test; may be repeated", "KEY=VALUE");
   verb->add_flag("--join", options->join, "The two files are the two directions of one sheet, row by row");
-  verb->add_flag("--together", answers.together, "The files are tests of one specimen, which one fit meets");
+  verb->add_flag("--together", answers.together, "The files are tests of one specimen: fit them together");
   verb->footer(
       "Examples:\n"
       "  tunica import strip.csv --width 5mm --thickness 1.2mm --gauge-length 20mm\n"

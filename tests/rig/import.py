@@ -144,6 +144,20 @@ channels = {one["observable"]: one["range"] for one in json.loads(printed)["prob
 # 50 N/m over 0.5 mm are 100 kPa.
 assert abs(channels["stress_circumferential"][1] - 100) < 1e-9 and abs(channels["stress_axial"][1] - 200) < 1e-9
 
+# The same in other units; sizes that do not go with a tension, and a tension beside a force.
+membrane.write_text(membrane.read_text().replace("Tx [N/m]", "Tx [mN/cm]"))
+experiment, said = imported(membrane, "--thickness", "0.5 mm")
+assert experiment["tests"]["membrane"]["data"]["units"] == {"Tx": "100 mN", "Ty": "N"}, experiment
+printed, _ = rig.tunica(program, "check", folder / "membrane.json", "--json")
+channels = {one["observable"]: one["range"] for one in json.loads(printed)["problems"][0]["channels"]}
+assert abs(channels["stress_circumferential"][1] - 10) < 1e-9 and abs(channels["stress_axial"][1] - 200) < 1e-9
+for size in ("--width", "--diameter"):
+    _, said = imported(membrane, size, "10 mm", "--thickness", "0.5 mm", code=2)
+    assert "which needs the thickness only" in said, said
+membrane.write_text(membrane.read_text().replace("Ty [N/m]", "Fy [N]"))
+_, said = imported(membrane, "--thickness", "0.5 mm", code=2)
+assert "A test takes one kind" in said, said
+
 # The murine tubes of the examples as their authors published them.
 murine = pathlib.Path(sources) / "examples" / "murine_tube"
 example = json.loads("\n".join(line for line in (murine / "experiment.json").read_text().splitlines()

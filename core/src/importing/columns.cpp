@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "data/header_words.hpp"
 #include "data/row_choice.hpp"
 #include "data/table_place.hpp"
@@ -119,20 +121,21 @@ const Word* meaning(const ColumnGuess& guess, const Words& words) {
   return nullptr;
 }
 
-/// A force per length, as the tension of a membrane: "Tx [N/m]".
+/// A force per length, as the tension of a membrane: "Tx [N/m]". Its unit becomes that of the force on one metre.
 bool guess_tension(ColumnGuess& guess, const Words& words) {
   const std::size_t slash = guess.unit.find('/');
   if (slash == std::string::npos || !measures(guess.unit, "N/m")) return false;
   const std::string force = guess.unit.substr(0, slash), length = guess.unit.substr(slash + 1);
   if (!measures(force, "mN") || !measures(length, "mm")) return false;
+  if (has_any(words, {"shear", "total", "=12", "=21", "=xy"})) return false;
   const bool x = has_any(words, {"=tx", "=t1", "=t11", "=nx", "=n1", "=n11"});
   const bool y = has_any(words, {"=ty", "=t2", "=t22", "=ny", "=n2", "=n22"});
   if (!x && !y && !has_any(words, {"tension", "force", "load", "stress", "kraft", "spannung", "=t", "=n"}))
     return false;
+  const double lengths = data::convert(1, "m", length);
   guess.kind = guess.quantity = "force";
-  guess.unit = force;
-  guess.per_length = "1 " + length;
-  guess.unit_from_name = true;
+  guess.unit = lengths == 1 ? force : fmt::format("{:g} {}", lengths, force);
+  guess.per_metre = guess.unit_from_name = true;
   guess.direction = x ? "circumferential" : y ? "axial" : direction_in(words);
   return true;
 }

@@ -29,8 +29,8 @@ struct ColumnGuess {
   std::string direction;            ///< "circumferential", "axial" or empty
   std::string measure;              ///< of a strain or a stress, where the name says it: "true", "green", "cauchy", …
   std::string unit;                 ///< as the file has it; empty = none
-  std::string per_length;           ///< "1 m" of a force per metre, the unit then being that of the force; else empty
   bool unit_from_name = false;      ///< "Force_N": the file does not say it in a way that the data block reads
+  bool per_metre = false;           ///< a force on one metre of an edge; `unit` is that of the force
   bool indexed = false;             ///< "E11", "exx": a component of a tensor, and no word says of which
   bool compression = false;         ///< the name speaks of compression
   bool set_point = false;           ///< what the machine was told, not what it measured

@@ -6,7 +6,8 @@
 #include "experiment/json_document.hpp"
 #include "plugins/catalogue.hpp"
 
-/// What a first experiment is made of: what the user names, else what plugins declare for the specimen.
+/// What a first experiment is made of: what the user names, else what plugins declare for the
+/// specimen; of several files, for that of the first one.
 namespace tunica::importing {
 
 using experiment::Json;

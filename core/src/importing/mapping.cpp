@@ -92,8 +92,12 @@ class Mapper {
   }
 
   void ask_unit(const std::string& name, const ColumnGuess& guess, const std::string& column) {
-    const auto is_answered = [&](const auto& one) { return one.first == column || one.first == guess.title; };
-    if (std::any_of(answers_.units.begin(), answers_.units.end(), is_answered)) return;
+    const auto answer = std::ranges::find_if(
+        answers_.units, [&](const auto& one) { return one.first == column || one.first == guess.title; });
+    if (answer != answers_.units.end()) {
+      if (guess.per_metre && !measures(answer->second, "mN")) mapping_.units[answer->first] = guess.unit;
+      return;
+    }
     const auto of = quantity(name);
     if (guess.unit_from_name && !guess.unit.empty())
       mapping_.units[column] = guess.unit;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importing/proposal.hpp"
 
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,8 +18,12 @@ Proposal propose(const Answers& answers, const std::filesystem::path& folder, co
   Proposal proposal;
   Json tests = Json::object(), runs = Json::array();
   Json models;
+  bool mixed = false;
+  std::optional<Specimen> first;
   for (const std::filesystem::path& file : answers.files) {
     auto [specimen, proposed] = tests_of_file(file, answers, folder, catalogue, ask, proposal.notes);
+    mixed = mixed || specimen != first.value_or(specimen);
+    first = first.value_or(specimen);
     if (models.empty()) models = chosen_model(answers.model, specimen, catalogue);
     Json names = Json::array();
     for (auto& [name, entry] : proposed) {
@@ -35,8 +40,12 @@ Proposal propose(const Answers& answers, const std::filesystem::path& folder, co
   }
   if (runs.size() > 1)
     proposal.notes.push_back(
-        "each file gets a fit of its own, as of another specimen; of one specimen say --together, and one fit meets "
-        "all");
+        "each file is fitted by itself, as a different specimen. If they are one specimen, say --together");
+  if (mixed && answers.model.empty())
+    proposal.notes.push_back(
+        fmt::format("the files are of different kinds of specimen, and the model of the first one is proposed for all: "
+                    "{}. Name another with --model",
+                    models.begin()->at("type").get<std::string>()));
   proposal.experiment = {{"format", 1}};
   proposal.experiment["models"] = std::move(models);
   proposal.experiment["tests"] = std::move(tests);

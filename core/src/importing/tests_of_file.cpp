@@ -181,6 +181,37 @@ class File {
     });
   }
 
+  /// Whether the forces of this file are those on one metre of an edge. Both kinds together are refused.
+  bool takes_tensions() {
+    const ColumnGuess *edge = nullptr, *force = nullptr;
+    for (const auto& [name, column] : mapped_) {
+      if (data::quantity_named(name, factory_.observables)->kind != From::force) continue;
+      const ColumnGuess& guess = columns_[csv_.column(column)];
+      const bool said_force = std::ranges::any_of(answers_.units, [&](const auto& one) {
+        return (one.first == column || one.first == guess.title) && measures(one.second, "mN");
+      });
+      (guess.per_metre && !said_force ? edge : force) = &guess;
+    }
+    if (edge == nullptr) return false;
+    if (force != nullptr)
+      throw InputError(fmt::format(
+          "{}, line {}: '{}' is a force per length, and '{}' a force. A test takes one kind; name the right columns "
+          "with --column.",
+          file_.string(), csv_.header_line, edge->title, force->title));
+    for (const auto& [option, given] : {std::pair{"--width", &answers_.width}, std::pair{"--area", &answers_.area},
+                                        std::pair{"--diameter", &answers_.diameter}})
+      if (!given->empty())
+        throw InputError(fmt::format(
+            "{}: '{}' is a force per length, which needs the thickness only. Leave {} out, or give the unit of a force "
+            "with --unit.",
+            option, edge->title, option));
+    note(
+        "'{}' is taken as a force per length of the unloaded edge; the thickness makes it a nominal stress. If the "
+        "length is that of the loaded edge, compute the stress first",
+        edge->title);
+    return true;
+  }
+
   void add_sizes(Json& data, const Json& where) {
     Json specimen = Json::object();
     KnownSizes table;
@@ -191,24 +222,17 @@ class File {
       specimen[key] = !given.empty() ? given : !found.empty() ? found : ask_(question);
     };
     direction_ = table.direction;
-    if (needs({From::force, From::plate_force}) && !answers_.area.empty()) {
+    if (takes_tensions()) {
+      specimen["width"] = "1 m";
+      size("thickness", answers_.thickness, table.thickness,
+           {"Its thickness, with its unit", "--thickness", "1.5 mm", true});
+    } else if (needs({From::force, From::plate_force}) && !answers_.area.empty()) {
       specimen["area"] = answers_.area;
     } else if (needs({From::force, From::plate_force}) && !answers_.diameter.empty()) {
       specimen["area"] = circle(answers_.diameter);
     } else if (needs({From::force, From::plate_force}) && answers_.width.empty() && !table.area.empty()) {
       specimen["area"] = table.area;
     } else if (needs({From::force, From::plate_force})) {
-      const auto tension = std::find_if(mapped_.begin(), mapped_.end(), [&](const auto& one) {
-        return !columns_[csv_.column(one.second)].per_length.empty();
-      });
-      if (tension != mapped_.end() && answers_.width.empty()) {
-        const ColumnGuess& column = columns_[csv_.column(tension->second)];
-        table.width = column.per_length;
-        note(
-            "'{}' is a force per length of the unloaded edge, and the thickness makes it a nominal stress; where the "
-            "length is that of the loaded edge, it is none",
-            column.title);
-      }
       size("width", answers_.width, table.width,
            {fmt::format(
                 "Width of the specimen of {} across the force, with its unit; of a cylinder --diameter, of another "
