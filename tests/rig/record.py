@@ -65,9 +65,9 @@ assert found(with_data(**FORCE, specimen={"thickness": "1.2 mm", "width": "10 mm
 only("record_size", "the width of test 't' is 1e-07 mm. Hardly a specimen is so small",
      with_data(**FORCE, specimen={"thickness": "1 mm", "width": "0.1 nm"}))
 
-only("record_size", "test 't' is 12 mm thick and 10 mm wide. Is the unit of the thickness right",
-     with_data(**FORCE, specimen={"thickness": "1.2 cm", "width": "10 mm"}))
-assert found(with_data(**FORCE, specimen={"thickness": "10 mm", "width": "10 mm"})) == [], "a square section"
+only("record_size", "test 't' is 30 mm thick and 10 mm wide. Is the unit of the thickness right",
+     with_data(**FORCE, specimen={"thickness": "3 cm", "width": "10 mm"}))
+assert found(with_data(**FORCE, specimen={"thickness": "2.1 mm", "width": "2 mm"})) == [], "a square section"
 
 # Headers that speak of another stress, or of another strain, than they are read as.
 plain = (folder / "strip.csv").read_text()

@@ -32,10 +32,10 @@ void look_along(const Node& node, const data::Sizes& sizes, std::string_view own
   look("grip_distance", sizes.grip_distance);
 }
 
-/// The smaller side of a section is its thickness.
+/// The smaller side of a section is its thickness; rods and square specimens are measured in any order.
 void look_at_section(const Node& node, const data::Specimen& specimen, const data::Sizes& sizes, std::string_view owner,
                      std::vector<data::Finding>& findings) {
-  if (!specimen.thickness || !sizes.width || *specimen.thickness <= *sizes.width) return;
+  if (!specimen.thickness || !sizes.width || *specimen.thickness <= 2 * *sizes.width) return;
   if (*specimen.thickness > largest || *sizes.width < smallest) return;  // said above
   findings.push_back(
       {data::FindingKind::record_size,
