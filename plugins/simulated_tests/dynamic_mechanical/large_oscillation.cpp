@@ -17,6 +17,7 @@ constexpr int newton_iterations = 40;
 constexpr double last_step = 1e-7;  ///< of y, taken to first order
 constexpr int most_cycles = 60;
 constexpr double alike = 1e-10;      ///< moduli of two cycles, relative
+constexpr double one_sided = 0.1;    ///< slopes up and down of a running maximum differ by 1
 constexpr double state_part = 1e-4;  ///< of differences by the state, relative; branches are linear in it
 
 }  // namespace
@@ -107,10 +108,11 @@ bool LargeOscillation::cycle(std::span<const Row> rows, std::size_t per_cycle, s
 }
 
 /// What one period at rest leaves of a change of the state: P. Of branches it is what a cycle leaves, whatever its
-/// path.
+/// path. A running maximum, as the largest load so far, keeps a change upwards and undoes one downwards.
 bool LargeOscillation::forget(std::span<const Row> rows) {
-  const std::size_t m = model_.describe().history_size, n = 2 * m;
+  const std::size_t m = model_.describe().history_size, n = 2 * m + 1;  // up and down in each, and as it is
   left_.clear();
+  grows_.clear();
   if (m == 0) return true;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
@@ -134,14 +136,23 @@ bool LargeOscillation::forget(std::span<const Row> rows) {
       for (std::size_t k = 0; k < m; ++k)
         kept(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)) -=
             (after[c * n + 2 * k] - after[c * n + 2 * k + 1]) / (2 * moved[k]);
+    auto& grows = grows_.emplace_back(m, false);
+    for (std::size_t k = 0; k < m; ++k) {
+      const double at_rest = after[k * n + 2 * m], up = (after[k * n + 2 * k] - at_rest) / moved[k],
+                   down = (at_rest - after[k * n + 2 * k + 1]) / moved[k];
+      grows[k] = std::abs(up - down) > one_sided;
+      if (!grows[k]) continue;
+      kept.row(static_cast<Eigen::Index>(k)).setZero();
+      kept(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) = 1;
+    }
     left_.emplace_back().setThreshold(1e-12);
     left_.back().compute(kept);
   }
   return true;
 }
 
-/// Newton's method for the state s that a cycle Φ(s) comes back to: s + (1 − P)⁻¹ (Φ(s) − s). What a cycle never
-/// forgets, as the largest load so far, has no step.
+/// Newton's method for the state s that a cycle Φ(s) comes back to: s + (1 − P)⁻¹ (Φ(s) − s). A running maximum takes
+/// Φ(s) itself. Cycles are compared after a step: slow branches hardly move from one to the next.
 bool LargeOscillation::settled(std::span<const Row> rows, std::size_t per_cycle, std::span<Complex> found) {
   const std::size_t n = rows.size(), m = model_.describe().history_size;
   for (auto* const column : {&time_, &y_, &nominal_}) column->resize(n);
@@ -165,13 +176,15 @@ bool LargeOscillation::settled(std::span<const Row> rows, std::size_t per_cycle,
       const Complex& last = before[static_cast<std::size_t>(&now - found.data())];
       return !(std::abs(now - last) <= alike * std::abs(now));
     });
-    if (apart == found.end()) return true;
-    failed_row_ = static_cast<std::size_t>(apart - found.begin());
+    if (k > 0 && apart == found.end()) return true;
+    if (apart != found.end()) failed_row_ = static_cast<std::size_t>(apart - found.begin());
     for (std::size_t i = 0; i < n; ++i) {
       Eigen::VectorXd change(static_cast<Eigen::Index>(m));
-      for (std::size_t c = 0; c < m; ++c) change[static_cast<Eigen::Index>(c)] = state_[c * n + i] - begin[c * n + i];
+      for (std::size_t c = 0; c < m; ++c)
+        change[static_cast<Eigen::Index>(c)] = grows_[i][c] ? 0 : state_[c * n + i] - begin[c * n + i];
       const Eigen::VectorXd move = left_[i].solve(change);
-      for (std::size_t c = 0; c < m; ++c) state_[c * n + i] = begin[c * n + i] + move[static_cast<Eigen::Index>(c)];
+      for (std::size_t c = 0; c < m; ++c)
+        if (!grows_[i][c]) state_[c * n + i] = begin[c * n + i] + move[static_cast<Eigen::Index>(c)];
     }
   }
   return fail(failed_row_, "its cycles do not settle");
