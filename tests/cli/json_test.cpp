@@ -129,12 +129,14 @@ TEST(Json, OfDataHasTheRowsThatAFitTakes) {
   auto& data = bench.experiment["tests"]["circ"]["data"];
   data["stress_measure"] = "first_piola_kirchhoff";
   data["rows"] = "0:20:2";
+  bench.experiment["tests"]["circ"]["hold_out"] = "1:2";
   bench.folder.write("circ.csv", "stretch [1],stress [Pa]\n1.1,1000\n1.2,2000\n1.3,3000\n1.4,4000\n");
   const auto ended = bench.tunica({"data", "experiment.json", "--json", "-o", "rows"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   const json taken = json::parse(ended.out).at("tests").at("circ");
   EXPECT_EQ(taken.at("columns").at("stretch [1]"), json::parse("[1.1, 1.3]"));
   EXPECT_DOUBLE_EQ(taken.at("columns").at("stress [kPa]").at(1).get<double>(), 3);
+  EXPECT_EQ(taken.at("columns").at("held_out [1]"), json::parse("[0, 1]"));
   EXPECT_EQ(taken.at("lines"), json::parse("[2, 4]"));
   EXPECT_EQ(taken.at("prescribed"), json::parse(R"(["stretch"])"));
   EXPECT_TRUE(std::filesystem::exists(bench.folder.path() / "rows/axial.csv"));

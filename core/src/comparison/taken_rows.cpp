@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "assembly/channels.hpp"
 #include "data/dataset.hpp"
 #include "results/keys.hpp"
 #include "tunica/error.hpp"
@@ -37,6 +38,10 @@ TakenRows taken_of(const experiment::TestEntry& test, const std::vector<Observab
   }
   if (!dataset.time.empty()) add("time", "s", dataset.time);
   for (const data::Channel& channel : dataset.channels) add(channel.observable, channel.unit, channel.values);
+  const std::vector<bool> fitted = assembly::fitted_rows(test, dataset);
+  std::vector<double> held_out;
+  for (const bool row : fitted) held_out.push_back(row ? 0 : 1);
+  if (std::ranges::count(fitted, false) > 0) add("held_out", "1", held_out);
   return taken;
 }
 

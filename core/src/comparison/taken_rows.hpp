@@ -10,7 +10,8 @@
 #include "comparison/simulation.hpp"
 
 /// The rows that a fit takes: what is left of the files after units, cycles, branches and chosen rows. A
-/// stress stays in the measure of its file, to which predictions are brought.
+/// stress stays in the measure of its file, to which predictions are brought. With "hold_out", a column `held_out` is 1
+/// in rows that the fit leaves out.
 namespace tunica::comparison {
 
 /// One test. The table has a column for each prescribed quantity, time and channel, in base units.
