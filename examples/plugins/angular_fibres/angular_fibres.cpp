@@ -26,7 +26,6 @@ struct Weights {
   std::array<std::array<double, 3>, angles> dyad;
   std::array<double, angles> w, by_theta, by_b;
   explicit Weights(std::span<const double> p) {
-    constexpr double degree = std::numbers::pi / 180;
     double sum = 0, sum_theta = 0, sum_b = 0;
     for (std::size_t i = 0; i < angles; ++i) {
       const double phi = std::numbers::pi * static_cast<double>(i) / angles, s = std::sin(phi), c = std::cos(phi);

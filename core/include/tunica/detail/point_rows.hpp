@@ -35,8 +35,11 @@ class PointRows {
     if (abscissae_.size() != count)
       throw std::logic_error(type_ + ": the geometry declares another number of abscissae than it counts");
     columns_.assign(values_.begin(), values_.end());
-    for (const std::string& channel : rows.channels)
-      channels_.push_back(static_cast<std::size_t>(std::ranges::find(channels, channel) - channels.begin()));
+    for (const std::string& channel : rows.channels) {
+      const auto place = std::ranges::find(channels, channel);
+      if (place == channels.end()) throw std::logic_error(type_ + ": the geometry declares no channel " + channel);
+      channels_.push_back(static_cast<std::size_t>(place - channels.begin()));
+    }
     names_ = rows.channels;
     for (std::size_t i = 1; i < time_.size(); ++i)
       if (!(time_[i] >= time_[i - 1]))

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -31,25 +32,31 @@ class OncePerParameters {
   std::shared_ptr<const Made> operator()(std::span<const double> parameters) const {
     {
       const std::lock_guard lock(mutex_);
-      for (const Kept& one : kept_)
-        if (std::ranges::equal(one.parameters, parameters)) return one.made;
+      if (auto made = known(parameters)) return made;
     }
     auto made = std::make_shared<const Made>(make_(parameters));
     const std::lock_guard lock(mutex_);
-    if (kept_.size() < sets) kept_.emplace_back();
+    if (auto others = known(parameters)) return others;  // of a thread that was faster
+    if (kept_.size() < sets_) kept_.emplace_back();
     kept_[oldest_] = {{parameters.begin(), parameters.end()}, made};
-    oldest_ = (oldest_ + 1) % sets;
+    oldest_ = (oldest_ + 1) % sets_;
     return made;
   }
 
  private:
-  static constexpr std::size_t sets = 8;  // a few threads, each at its own set
   struct Kept {
     std::vector<double> parameters;
     std::shared_ptr<const Made> made;
   };
 
+  [[nodiscard]] std::shared_ptr<const Made> known(std::span<const double> parameters) const {
+    for (const Kept& one : kept_)
+      if (std::ranges::equal(one.parameters, parameters)) return one.made;
+    return nullptr;
+  }
+
   std::function<Made(std::span<const double>)> make_;
+  std::size_t sets_ = 2 * std::max(4U, std::thread::hardware_concurrency());  // each thread at its own set
   mutable std::mutex mutex_;
   mutable std::vector<Kept> kept_;
   mutable std::size_t oldest_ = 0;
