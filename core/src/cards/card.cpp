@@ -128,9 +128,9 @@ std::string softening_lines(Target target, const Draft& draft) {
   if (!draft.material.softening) return "";
   const bool isotropic = !has_fibres(draft.material);
   if ((target != Target::abaqus && target != Target::ansys) || !isotropic)
-    throw CannotExpress{
-        isotropic ? "it has no softening of Ogden and Roxburgh" : "its softening is for isotropic energies only",
-        "fit the loading that the part will see, without the mechanism that softens"};
+    throw CannotExpress{isotropic ? "it has no softening of Ogden and Roxburgh"
+                                  : "its softening is written for isotropic energies only",
+                        "fit the loading that the part will see, without the mechanism that softens"};
   const auto [r, m, beta] = *draft.material.softening;
   const std::string constants = fmt::format("{}, {}, {}", number(r), number(draft.stress * m), number(beta));
   return target == Target::abaqus ? "*MULLINS EFFECT\n" + constants + '\n'

@@ -8,6 +8,7 @@
 
 #include "execution/checksum.hpp"
 #include "execution/evaluation_table.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::comparison {
 
@@ -90,7 +91,8 @@ void DrawJournal::write() {
   try {
     appended_.append(text_);
   } catch (const execution::WriteFailure& problem) {
-    throw execution::WriteFailure(fmt::format("{}. {} steps of the chains are kept there", problem.what(), kept_));
+    throw execution::WriteFailure(
+        fmt::format("{}. {} of the chains are kept there", problem.what(), text::counted(kept_, "step", "steps")));
   }
   kept_ += waiting_;
   waiting_ = 0;

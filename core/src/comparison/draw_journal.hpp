@@ -22,8 +22,8 @@ namespace tunica::comparison {
 /// stand in the order in which they were written, those of one chain in that of their steps. A step that comes once
 /// more takes the place of the one before and of all after that.
 ///
-/// The program is what makes the steps: its version, its plugins, the vectors of the machine. Steps of another program
-/// would be followed by others than it would make.
+/// The program is what makes the steps: its version, its plugins, the vectors of the machine. Another program
+/// would continue a chain differently.
 ///
 /// Text is written every 0.2 s, and at finish(). A failed write is thrown there: an exception would cancel the other
 /// chains without a word. has_failed() is for the chains, which need not draw what cannot be kept.

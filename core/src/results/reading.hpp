@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 /// Reads the documents that tunica writes, also those of an older program, which may lack anything. Readers and writers
-/// name a key by its constant in results/keys.hpp. A key that the schemas do not declare therefore does not compile.
+/// name a key by its constant in results/keys.hpp. A constant that the schemas do not declare does not compile.
 namespace tunica::results {
 
 using Json = nlohmann::ordered_json;

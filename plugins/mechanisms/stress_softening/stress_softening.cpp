@@ -111,9 +111,10 @@ MechanismFactory factory() {
   };
   // η = 1 − s erf((Wmax − W)/(m Wmax)): r = 1/s, and the width has no part of its own
   mechanism.card_softening = [](const Options&, std::span<const double> p) -> CardSoftening {
-    if (!(p[0] > 0 && p[0] < 1))
-      throw InputError("stress_softening: found s = " + std::to_string(p[0]) +
-                       ", and cards need one between 0 and 1; fit without the mechanism where nothing softens");
+    if (!(p[0] > 0))
+      throw InputError(
+          "stress_softening: at s = 0 nothing softens, and cards have no such law; fit without the mechanism");
+    if (!(p[0] < 1)) throw InputError("stress_softening: at s = 1 all is lost, and cards need less; hold s below 1");
     return {1 / p[0], 0, p[1]};
   };
   return mechanism;
