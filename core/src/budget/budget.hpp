@@ -29,6 +29,8 @@ struct Contender {
 
   /// One test with its own parameters.
   [[nodiscard]] bool is_state() const { return id == "another_state"; }
+  /// What it says of the specimen or the rig, whatever the form of a law is.
+  [[nodiscard]] std::string answer() const { return sort + ' ' + place.words(); }
 };
 
 /// The misfit of the base, the effects that explain it, and the rest.

@@ -123,9 +123,9 @@ Decision decided(const Budget& budget) {
     return std::pair(!believed(*a), -a->probability) < std::pair(!believed(*b), -b->probability);
   });
   if (ties.front()->share < most_of_it) return {};
-  std::set<std::string> sorts;
-  for (const Contender* one : ties) sorts.insert(one->sort);
-  return {sorts.size() == 1 ? Verdict::leading : Verdict::indistinguishable, std::move(ties)};
+  std::set<std::string> answers;
+  for (const Contender* one : ties) answers.insert(one->answer());
+  return {answers.size() == 1 ? Verdict::leading : Verdict::indistinguishable, std::move(ties)};
 }
 
 }  // namespace tunica::budget

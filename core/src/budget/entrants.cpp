@@ -28,6 +28,7 @@ constexpr std::array<unsigned, 3> degrees{6, 10, 14};
 constexpr double as_rough_as_noise = 1.5;  ///< of |r|²/ν
 constexpr double unbelieved = 20;          ///< odds against an implausible amplitude
 constexpr double rough_share = 0.15;       ///< of the misfit
+constexpr double nearly_as_much = 0.25;    ///< of the score: the second place of a mechanism may be the right one
 const double of_uniform = 1 / std::sqrt(2 * std::numbers::pi);
 
 /// √Σ(y/σ)²: how many standard deviations all that was measured comes to.
@@ -169,7 +170,8 @@ std::vector<Lead> leads_of(const diagnosis::Analysis& analysis, const discovery:
   return leads;
 }
 
-std::vector<const Lead*> promising(const Field& field, const Mixture& mixture, std::size_t count, std::size_t laws) {
+std::vector<const Lead*> promising(const Field& field, const Mixture& mixture, std::size_t count, std::size_t laws,
+                                   bool second_places) {
   const diagnosis::Projection projection(diagnosis::interior(mixture.fit));
   std::vector<std::pair<double, const Lead*>> ranking;
   for (const Lead& lead : field.leads) {
@@ -184,17 +186,27 @@ std::vector<const Lead*> promising(const Field& field, const Mixture& mixture, s
     if (lead.side == MechanismFactory::Side::both || t > 0) ranking.emplace_back(t * t, &lead);
   }
   std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<const Lead*> chosen;
-  std::set<std::string> seen;
+  std::vector<const Lead*> chosen, elsewhere;
+  std::map<std::string, std::pair<double, const Lead*>> seen;
+  std::set<std::string> twice;
   std::map<std::string, std::size_t> of_invariant;
   for (const auto& [T, lead] : ranking) {
-    if (chosen.size() >= count) break;
     const discovery::KindPointer& term = lead->member.term;
-    if (term && of_invariant[term->invariant_words()] >= laws) continue;
-    if (!seen.insert(lead->member.key()).second) continue;
+    const auto first = seen.find(lead->member.key());
+    if (first != seen.end()) {
+      const auto& [most, other] = first->second;
+      const bool nearly = second_places && !term && !lead->member.mechanism->place.row && T >= nearly_as_much * most;
+      if (nearly && !(lead->member.mechanism->place == other->member.mechanism->place) &&
+          twice.insert(first->first).second)
+        elsewhere.push_back(lead);
+      continue;
+    }
+    if (chosen.size() >= count || (term && of_invariant[term->invariant_words()] >= laws)) continue;
+    seen.emplace(lead->member.key(), std::pair(T, lead));
     if (term) ++of_invariant[term->invariant_words()];
     chosen.push_back(lead);
   }
+  chosen.insert(chosen.end(), elsewhere.begin(), elsewhere.end());
   return chosen;
 }
 
@@ -262,16 +274,15 @@ Entrants entrants_of(Field& field) {
   const diagnosis::Evidence& evidence = field.analysis.evidence;
   const Mixture base = field.mixer.base();
   const double misfit = std::max(field.size.squares(base.fit), 1e-300);
-  const auto chosen = promising(field, base, most_entrants, laws_of_an_invariant);
+  const auto chosen = promising(field, base, most_entrants, laws_of_an_invariant, true);
   std::vector<std::optional<Entrant>> fitted(chosen.size());
   tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t k) {
     auto mixture = field.mixer.grown(base, *chosen[k]);
     if (!mixture) return;
-    // All rows of a channel at once are an offset, and no rows by themselves.
-    const bool of_row = chosen[k]->member.mechanism && chosen[k]->member.mechanism->place.row;
     for (const diagnosis::Refit& refit : field.known)
-      if (refit.additions.size() == 1 && refit.additions.front().id == chosen[k]->member.key() &&
-          refit.additions.front().place.row.has_value() == of_row && refit.fit.chi2 < mixture->fit.chi2 &&
+      if (refit.additions.size() == 1 && chosen[k]->member.mechanism &&
+          refit.additions.front().id == chosen[k]->member.mechanism->id &&
+          refit.additions.front().place == chosen[k]->member.mechanism->place && refit.fit.chi2 < mixture->fit.chi2 &&
           refit.fit.jacobian.cols() == mixture->fit.jacobian.cols())
         mixture = field.mixer.mixture_of(refit);
     Entrant entrant;

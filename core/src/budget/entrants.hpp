@@ -32,7 +32,10 @@ std::vector<Lead> leads_of(const diagnosis::Analysis& analysis, const discovery:
                            const std::vector<discovery::KindPointer>& kinds);
 
 /// The leads that explain most of what a fit leaves, best first: of each key one, and of each invariant so many laws.
-std::vector<const Lead*> promising(const Field& field, const Mixture& mixture, std::size_t count, std::size_t laws);
+/// `second_places`: then also the next place of a mechanism that explains a quarter of that. The scores are those of a
+/// straight line, by which the right place need not be the first.
+std::vector<const Lead*> promising(const Field& field, const Mixture& mixture, std::size_t count, std::size_t laws,
+                                   bool second_places = false);
 
 /// The columns of a fit that evidence integrates over: of the base, and of what was added, scaled by its prior width.
 struct Columns {

@@ -183,6 +183,14 @@ std::optional<Mixture> Mixer::grown(const Mixture& from, const Lead& lead) const
     if (grown->fit.residuals.size() > 0 && grown->fit.chi2 < from.fit.chi2 - 0.7 * promised * promised * length) break;
   }
   if (grown->fit.residuals.size() == 0) return std::nullopt;
+  // A base at a bound went there to make up for what it lacks. With the cause, it may belong where it began.
+  if (from.members.empty() && diagnosis::at_a_bound(from.fit)) {
+    std::vector<double> start(parameters.size());
+    for (std::size_t j = 0; j < start.size(); ++j) start[j] = parameters[j].initial;
+    for (const Variable& variable : grown->own.back())
+      for (const std::size_t member : variable) start[member] = grown->fit.free[member];
+    fit(*grown, start);
+  }
   return grown;
 }
 

@@ -105,10 +105,10 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
 /// One of each sort; powers of the stretches that act like different invariants have one name.
 std::string tie_words(const Budget& budget, const Decision& decision) {
   std::vector<const Contender*> shown;
-  std::set<std::string> sorts;
+  std::set<std::string> answers;
   std::map<std::string, int> named;
   for (const Contender* one : decision.first)
-    if (sorts.insert(one->sort).second) {
+    if (answers.insert(one->answer()).second) {
       shown.push_back(one);
       ++named[one->id + place_of(one->place)];
     }
