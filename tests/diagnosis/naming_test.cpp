@@ -30,6 +30,27 @@ TEST(Naming, IsOfOneMechanismThatIsEnough) {
   EXPECT_EQ(found.noise_factor, std::nullopt);
 }
 
+// "steep" shows what the data show, but only with ten times the amplitude that is plausible; "plain" leaves noise too.
+TEST(Naming, PrefersAPlausibleCauseThatLeavesNoiseToAnImplausibleOne) {
+  const auto named = [](bool with_plain) {
+    Contested causes({10});
+    MadeUp steep = Contested::shaped("steep", {1});
+    steep.declare = [](MechanismFactory& factory) {
+      factory.plausible_min = -1;
+      factory.plausible_max = 1;
+    };
+    causes.add(std::move(steep));
+    if (with_plain) causes.add(Contested::shaped("plain", {1, 0.1}));
+    return causes.settled().named();
+  };
+  const Explanation both = named(true);
+  EXPECT_EQ(both.verdict, Verdict::named);
+  EXPECT_THAT(both.claim.ambiguity_set, ElementsAre("plain")) << "no tie with what nobody would believe";
+  const Explanation alone = named(false);
+  EXPECT_EQ(alone.verdict, Verdict::suspect_data);
+  EXPECT_EQ(named_in(alone.claim), "steep");
+}
+
 // A tenth as likely before the data: a second mechanism has to gain 2 ln 10 = 4.6 where the first leaves noise.
 TEST(Naming, IsOfTwoOnlyWhereTheSecondIsWorthItsPrice) {
   EXPECT_EQ(named_in(Contested({10, root(4.3)}).with_rows(3).settled(false).named().claim), "m0");

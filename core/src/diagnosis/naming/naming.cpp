@@ -11,6 +11,7 @@
 #include "diagnosis/evidence/stand_ins.hpp"
 #include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/naming/causes.hpp"
+#include "diagnosis/naming/credibility.hpp"
 #include "diagnosis/naming/credible.hpp"
 #include "diagnosis/naming/remainder.hpp"
 
@@ -78,10 +79,12 @@ class Contest {
     // Where one may be enough, two must be worth their price.
     const double floor = is_clean(p_one) ? single.log_weight - log_odds_of_pair(singles_.size()) : -INFINITY;
     std::vector<Group> groups = fit_pairs(inquiry_, analysis_, singles_, floor);
+    weigh_credibility(inquiry_, analysis_, groups);
     if (groups.empty() || groups.front().log_weight < floor) return one(p_one, is_clean(p_one));
     double p = p_of_remainder(analysis_, *groups.front().refit);
     if (is_clean(p)) return several(groups, p);
     if (auto triples = fit_triples(inquiry_, analysis_, groups); !triples.empty()) {
+      weigh_credibility(inquiry_, analysis_, triples);
       groups = std::move(triples);
       p = p_of_remainder(analysis_, *groups.front().refit);
     }
@@ -118,20 +121,13 @@ class Contest {
     const Fit& fit = analysis_.evidence.fit;
     const Single& single = singles_.front();
     // An explanation with an implausible amplitude ranks below several with plausible ones.
-    if (!believable(*single.best, {single.direction}) && believable(*group.refit, group.directions)) return false;
+    if (!is_credible(inquiry_, analysis_, *single.best, {single.direction}) &&
+        is_credible(inquiry_, analysis_, *group.refit, group.directions))
+      return false;
     const double rows = static_cast<double>(fit.residuals.size());
     const double odds = static_cast<double>(group.additions.size() - 1) * log_odds_of_pair(singles_.size());
     return fit.chi2 - single.best->fit.chi2 > most_of_it * (fit.chi2 - rows) ||
            single.log_weight > group.log_weight + odds;
-  }
-
-  [[nodiscard]] bool believable(const Refit& refit, const std::vector<std::size_t>& directions) const {
-    for (std::size_t k = 0; k < directions.size(); ++k) {
-      const Direction& direction = analysis_.hypotheses.directions[directions[k]];
-      const Amplitude amplitude = cause_of(inquiry_, analysis_, refit, k, direction).amplitude;
-      if (amplitude.at_bound || !amplitude.plausible) return false;
-    }
-    return true;
   }
 
   const Inquiry& inquiry_;
@@ -197,7 +193,8 @@ bool can_search_terms(const Request& request, const Evidence& evidence, const pl
 }
 
 Explanation named_causes(const Inquiry& inquiry, const Analysis& analysis) {
-  const std::vector<Single> singles = fit_singles(inquiry, analysis);
+  std::vector<Single> singles = fit_singles(inquiry, analysis);
+  weigh_credibility(inquiry, analysis, singles);
   if (singles.empty() && inquiry.request.mechanisms.empty())
     return unexplained(ReasonKind::no_trace, no_trace_words(inquiry.request));
   if (singles.empty())

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/memory.hpp"
+#include "diagnosis/hypotheses/places.hpp"
 #include "text/lists.hpp"
 
 namespace tunica::diagnosis {
@@ -22,17 +23,22 @@ std::vector<std::string> unseen_rivals(const Inquiry& inquiry, const Hypotheses&
   std::vector<std::string> rivals;
   const MechanismFactory& mechanism = inquiry.mechanism(id);
   if (!assembly::has_memory(mechanism)) return rivals;
-  for (const Candidate& one : hypotheses.candidates)
-    if ((one.absence == Absence::no_clock || one.absence == Absence::no_past) && is_declared(mechanism, one.id) &&
-        is_declared(*one.mechanism, id))
+  const bool of_sensor = group_of(mechanism) == CauseGroup::rig;
+  for (const Candidate& one : hypotheses.candidates) {
+    const bool unseen = one.absence == Absence::no_clock || one.absence == Absence::no_past;
+    // Tests of unknown order count as a first loading: what the material remembers there is a guess.
+    const bool half_seen = of_sensor && group_of(*one.mechanism) == CauseGroup::material && !one.without_past.empty();
+    if ((unseen || half_seen) && is_declared(mechanism, one.id) && is_declared(*one.mechanism, id))
       rivals.push_back(one.id);
+  }
   return rivals;
 }
 
 Reason not_looked_for(const std::vector<std::string>& rivals) {
   return {ReasonKind::rival_not_looked_for,
-          fmt::format("{} may act alike and {} not looked for, because order or time of some rows is not known",
-                      text::joined(rivals), text::agreeing(rivals.size(), "was", "were"))};
+          fmt::format(
+              "{} may act alike and {} not looked for in every test, because order or time of some rows is not known",
+              text::joined(rivals), text::agreeing(rivals.size(), "was", "were"))};
 }
 
 void limit_by_unseen_rivals(const Inquiry& inquiry, const Hypotheses& hypotheses, Explanation& explanation) {
