@@ -80,18 +80,28 @@ TEST_F(Deciding, WhatIsFarAheadAndSureLeads) {
   expect({rig("gain", 0.9, 0.95)}, Verdict::unknown, {});
 }
 
-/// Sure among the listed causes, with an unlisted misfit that is less likely.
+/// Sure among the listed causes, with an unlisted misfit that is at most three times as likely as all of them.
 TEST_F(Deciding, WhatIsSureAmongListedCausesLeadsBesideADoubt) {
-  budget.unlisted_probability = 0.4;
-  expect({rig("gain", 0.9, 0.55), rig("offset", 0.7, 0.05)}, Verdict::leading, {"gain"});
-  expect({rig("gain", 0.9, 0.35), rig("offset", 0.8, 0.2)}, Verdict::indistinguishable, {"gain", "offset"});
-  expect({rig("gain", 0.9, 0.53), rig("offset", 0.7, 0.07)}, Verdict::unknown, {});
-  budget.unlisted_probability = 0.41;
-  expect({rig("gain", 0.9, 0.59)}, Verdict::unknown, {});
+  budget.unlisted_probability = 0.75;
+  expect({rig("gain", 0.9, 0.23), rig("offset", 0.7, 0.02)}, Verdict::leading, {"gain"});
+  expect({rig("gain", 0.9, 0.15), rig("offset", 0.8, 0.1)}, Verdict::indistinguishable, {"gain", "offset"});
+  expect({rig("gain", 0.9, 0.22), rig("offset", 0.7, 0.03)}, Verdict::unknown, {});
+  budget.unlisted_probability = 0.76;
+  expect({rig("gain", 0.9, 0.24)}, Verdict::unknown, {});
   // Of a misfit that nobody cares about, the evidence has to be whole.
   budget.unlisted_probability = 0.3;
   budget.base.rms = 0.019;
   expect({rig("gain", 0.9, 0.7)}, Verdict::unknown, {});
+}
+
+/// The same mechanism in another test is another answer, and so is another state of another test.
+TEST_F(Deciding, APlaceIsPartOfTheAnswer) {
+  Contender here = rig("gain", 0.9, 0.5), there = rig("gain", 0.85, 0.45);
+  here.place.tests = {"a"};
+  there.place.tests = {"b"};
+  expect({here, there}, Verdict::indistinguishable, {"gain", "gain"});
+  there.place.tests = {"a"};
+  expect({here, there}, Verdict::leading, {"gain", "gain"});
 }
 
 /// It takes 95 % and leaves 3 % of the range at most.

@@ -54,8 +54,9 @@ bool is_enough_alone(const Budget& budget, const Contender& top) {
          top.rest.rms <= half_again * budget.tolerance.share && budget.unlisted_probability < 1 - sure_enough;
 }
 
-/// Whether the evidence is enough: sure among all, or among the causes that are listed. Then an unlisted misfit is less
-/// likely than they are, and the base misses by more than anybody would tolerate.
+/// Whether the evidence is enough: sure among all, or among the causes that are listed. Then the odds of an unlisted
+/// misfit are three to one at most, and the base misses by more than anybody would tolerate. The sentence says the
+/// odds.
 bool is_likely(const Budget& budget, const Contenders& some, double sure) {
   const double probability = probability_of(some), unlisted = budget.unlisted_probability;
   return probability >= sure || (unlisted <= may_be_unlisted && budget.base.rms > budget.tolerance.share &&

@@ -11,7 +11,7 @@ inline constexpr double most_of_it = 0.5;   ///< of the misfit: what leads takes
 inline constexpr double ahead = 0.15;       ///< of the misfit: of the next cause that is another one
 inline constexpr double sure_enough = 0.9;  ///< probability, with "no listed cause" among the rivals
 /// Of "no listed cause", where the causes that are listed are sure among themselves: what leads then says so.
-inline constexpr double may_be_unlisted = 0.4;
+inline constexpr double may_be_unlisted = 0.75;
 
 /// What the contenders allow to say: `leading`, `indistinguishable` or `unknown`.
 struct Decision {
