@@ -8,9 +8,9 @@
 
 namespace tunica::diagnosis {
 
-/// Mutual look-alikes that also act over time, but were not considered because clock or order is unknown. For a drift of
-/// a sensor those of the material, too, that some tests could not show for that reason. Empty for a mechanism without
-/// memory.
+/// Mutual look-alikes that also act over time, but were not considered because clock or order is unknown. For a drift
+/// of a sensor those of the material, too, that some tests could not show for that reason. Empty for a mechanism
+/// without memory.
 std::vector<std::string> unseen_rivals(const Inquiry& inquiry, const Hypotheses& hypotheses, const std::string& id);
 
 Reason not_looked_for(const std::vector<std::string>& rivals);
