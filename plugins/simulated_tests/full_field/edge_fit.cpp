@@ -16,6 +16,18 @@ void EdgeFit::linearise(Equilibrium& body) {
   G_.compute(G);
 }
 
+/// By the triangle of G, since a damping is tried after another (Moré, Lecture Notes in Mathematics 630:105, 1978).
+Eigen::VectorXd EdgeFit::solve(const Eigen::VectorXd& rest, double damping) const {
+  if (damping == 0) return solve(rest);
+  const Eigen::Index n = G_.cols();
+  const Eigen::MatrixXd R = G_.matrixR().topRows(n).triangularView<Eigen::Upper>();
+  Eigen::MatrixXd stacked(2 * n, n);
+  stacked << R, Eigen::MatrixXd::Identity(n, n) * (damping * R.colwise().norm().maxCoeff());
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * n);
+  right.head(n) = Eigen::VectorXd(G_.householderQ().adjoint() * rest).head(n);
+  return G_.colsPermutation() * stacked.householderQr().solve(right).eval();
+}
+
 void EdgeFit::add(const Eigen::VectorXd& coefficients, std::vector<double>& prescribed) const {
   for (std::size_t k = 0; k < modes_.size(); ++k)
     for (const auto& [dof, value] : modes_[k]) prescribed[dof] += coefficients[static_cast<Eigen::Index>(k)] * value;

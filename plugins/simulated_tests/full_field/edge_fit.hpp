@@ -30,6 +30,8 @@ class EdgeFit {
   void linearise(Equilibrium& body);
   /// The change of the coefficients that takes away what can be of `rest` = û − u.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& rest) const { return G_.solve(rest); }
+  /// The same change, kept short: argmin |G c − rest|² + damping² g² |c|², g the longest column of G.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& rest, double damping) const;
   /// Adds the modes to prescribed displacements.
   void add(const Eigen::VectorXd& coefficients, std::vector<double>& prescribed) const;
   /// Adds the responses to the modes, after linearise().

@@ -53,28 +53,59 @@ Eigen::VectorXd Equilibrium::solve(const std::vector<double>& of_dofs) const {
 /// K du = −f − ∂f/∂u_held direction. The first step moves the held displacements, the others leave them. Where steps
 /// are small, one factor serves several, as long as each is a tenth of the one before.
 bool Equilibrium::newton(std::vector<double> direction) {
-  bool reuse = false;
+  bool reuse = false, evaluated = false;
   double before = 1e300, size = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    if (!evaluate(!reuse, false) || (!reuse && !factor(direction))) return false;
+    if (!evaluated && !evaluate(!reuse, false)) return false;
+    if (!reuse && !factor(direction)) return false;
     std::vector<double> right = f_;
     if (iteration == 0)
       for (std::size_t dof = 0; dof < right.size(); ++dof) right[dof] += by_direction_[dof];
     const Eigen::VectorXd du = -solve(right);
     const double largest = du.size() > 0 ? du.lpNorm<Eigen::Infinity>() : 0;
     if (!std::isfinite(largest)) return false;
-    add_free(du, u_);
+    size = 1e-6 * std::max(specimen_.extent(0), specimen_.extent(1));
+    for (const double x : u_) size = std::max(size, std::abs(x));
+    const bool shrinks = largest < 0.3 * before;
+    evaluated = iteration > 0 && !reuse && (largest >= small_step * size || (iteration > 1 && !shrinks));
+    if (evaluated) {
+      if (!search_along(du)) return false;
+    } else {
+      add_free(du, u_);
+    }
     if (iteration == 0) {
       for (std::size_t dof = 0; dof < u_.size(); ++dof) u_[dof] += direction[dof];
       std::fill(direction.begin(), direction.end(), 0.0);
     }
-    size = 1e-6 * std::max(specimen_.extent(0), specimen_.extent(1));
-    for (const double x : u_) size = std::max(size, std::abs(x));
     // A step with its own factor leaves its square behind, one with an older factor a share of itself.
     if (iteration > 0 && largest <= (reuse ? 1e-11 : 1e-7) * size) return evaluate(false, false);
-    if (iteration > 2 && largest > 2 * before) return false;
-    reuse = iteration > 0 && (reuse ? largest < 0.1 * before : largest < 0.01 * size);
+    reuse =
+        iteration > 0 && (reuse ? largest < 0.1 * before : largest < small_step * size && (iteration == 1 || shrinks));
     before = largest;
+  }
+  return false;
+}
+
+/// Moves by s du with the largest tried s ≤ 1 whose slope duᵀf is not above half of what it was before, with the other
+/// sign (Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1, 1991, § 9.2). Where fibres are
+/// switched on, the whole step stretches them by what the matrix alone would bear.
+bool Equilibrium::search_along(const Eigen::VectorXd& du) {
+  constexpr int cuts = 12;
+  const auto slope = [&] {
+    double sum = 0;
+    for (std::size_t k = 0; k < specimen_.free().size(); ++k)
+      sum += du[static_cast<Eigen::Index>(k)] * f_[specimen_.free()[k]];
+    return sum;
+  };
+  const double first = slope();
+  double moved = 0, next = 1;
+  for (int cut = 0; cut < cuts; ++cut) {
+    add_free((next - moved) * du, u_);
+    moved = next;
+    const bool usable = evaluate(true, false);
+    const double now = usable ? slope() : 0;
+    if (usable && (first >= 0 || now <= -0.5 * first)) return true;
+    next *= usable ? std::clamp(first / (first - now), 0.1, 0.5) : 0.3;
   }
   return false;
 }

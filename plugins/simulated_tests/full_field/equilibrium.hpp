@@ -32,6 +32,8 @@ class Equilibrium {
   void begin(State state);
   /// Moves by a change of all displacements; false where the material has no answer there.
   bool move_by(const std::vector<double>& change);
+  /// Forces where it is; false where the material has no answer there.
+  bool stay() { return evaluate(false, false); }
   /// Prepares derivatives by parameters where it is, with the stiffness of the last linearise().
   bool stay_with_parameters() { return evaluate(false, true); }
   /// To where linearise() was called, for its derivatives.
@@ -58,9 +60,11 @@ class Equilibrium {
   using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
   static constexpr int most_iterations = 25;
   static constexpr double smallest_step = 2e-3;  ///< of the way from step to step
+  static constexpr double small_step = 0.01;     ///< of the displacements, by which one factor serves the next step
   bool evaluate(bool with_tangent, bool with_parameters);
   bool factor(const std::vector<double>& direction);
   bool newton(std::vector<double> direction);
+  bool search_along(const Eigen::VectorXd& du);
   void weigh(std::vector<double>& of_points) const;
   void by_stress(std::span<const double> change, std::vector<double>& du, std::vector<double>& df) const;
   [[nodiscard]] Eigen::VectorXd solve(const std::vector<double>& of_dofs) const;

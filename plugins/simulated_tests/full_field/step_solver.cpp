@@ -9,8 +9,6 @@ namespace {
 
 constexpr const char* singular = "the stiffness is singular; narrow the bounds of the model's parameters";
 constexpr const char* no_edges = "the edges do not follow from the points; give a smaller \"smoothing\"";
-constexpr const char* not_found =
-    "the edges that fit the points best were not found; narrow the bounds of the model's parameters";
 // Of the size of the specimen: chords shrink by a fifth or faster, and edges alone by far more.
 constexpr double precise_step = 1e-11, precise_edge = 1e-9;
 constexpr double loose_step = 1e-5;  ///< of the displacements
@@ -104,23 +102,50 @@ bool StepSolver::from_measured(bool precisely, bool by_parameters) {
   return false;
 }
 
-/// From the step before, with edges that begin as the points near them say.
+/// From the step before, with edges that begin as the points near them say, by the method of Levenberg and Marquardt
+/// (Moré, Lecture Notes in Mathematics 630:105, 1978). Far from the parameters of the points, undamped steps lead to
+/// edges that no material bears. There the best edges are found to a share of the misfit only.
 std::optional<std::string> StepSolver::along_the_way() {
-  constexpr int rounds = 4, chords = 6;
+  constexpr int trials = 30;
+  constexpr double least_damping = 0.02, most_damping = 10, little = 1e-3;
   std::vector<double> prescribed = with_flaws(on_.beginning(step_));
   if (auto problem = body_.move_to(prescribed)) return problem;
-  for (int round = 0; round < rounds; ++round) {
-    if (!body_.linearise(false)) return singular;
-    edges_.linearise(body_);
-    for (int chord = 0; chord < chords; ++chord) {
-      const Eigen::VectorXd change = edges_.solve(rest(body_.displacements()));
-      if (!change.allFinite()) return no_edges;
-      edges_.add(change, prescribed);
-      if (auto problem = body_.move_to(prescribed)) return problem;
-      if (change.lpNorm<Eigen::Infinity>() < precise_edge * size(on_.specimen())) return {};
+  const double extent = size(on_.specimen());
+  double damping = 0, before = 0;
+  bool fresh = false, same = false;
+  Eigen::VectorXd left = rest(body_.displacements());
+  for (int trial = 0; trial < trials && damping < most_damping; ++trial) {
+    const bool first = !fresh;
+    if (first) {
+      if (!body_.linearise(false)) return singular;
+      edges_.linearise(body_);
+    }
+    const Eigen::VectorXd change = edges_.solve(left, damping);
+    if (!change.allFinite()) return no_edges;
+    const double length = change.lpNorm<Eigen::Infinity>();
+    const Equilibrium::State state = body_.state();
+    std::vector<double> next = prescribed;
+    edges_.add(change, next);
+    const bool arrived = !body_.move_to(next);
+    Eigen::VectorXd then = arrived ? rest(body_.displacements()) : left;
+    const bool small = damping == 0 && length < precise_edge * extent;
+    const double gain = 1 - then.squaredNorm() / left.squaredNorm();
+    if (arrived && (small || gain >= 0)) {
+      prescribed = std::move(next);
+      left.swap(then);
+      if (first) same = damping == 0 && length < same_place * extent;
+      if ((small && same) || (damping > 0 && gain < little)) return {};
+      if (gain > 0.1 || damping == 0) damping = damping > least_damping ? damping / 5 : 0;
+      fresh = !small && damping == 0 && (first || length < 0.2 * before);
+      before = length;
+    } else {
+      body_.begin(state);
+      if (!body_.stay()) return singular;
+      fresh = true;
+      damping = std::max(5 * damping, least_damping);
     }
   }
-  return not_found;
+  return {};
 }
 
 std::optional<std::string> StepSolver::nearly_settle(bool by_parameters) {
