@@ -178,6 +178,35 @@ double largest_of(const std::vector<double>& of, std::size_t first, std::size_t 
   return most;
 }
 
+// Where searches begin. Undamped steps of the edges ask for what no material bears, and the stiffness jumps where
+// fibres are switched on.
+TEST(FullField, FarFromTheMaterialTheFieldHasAnAnswer) {
+  const auto pulled = [](const Point& at, double load) -> Point { return {0.3 * load * at[0], -0.1 * load * at[1]}; };
+  Measured measured = measure({0.4, 1}, pulled, {-11, -9.5}, {11, 9.5}, 14);
+  for (std::size_t i = measured.step.size(); i-- > 0;)
+    if (std::hypot(measured.x[i], measured.y[i]) < 4.2)
+      for (auto* column : {&measured.step, &measured.x, &measured.y, &measured.ux, &measured.uy})
+        column->erase(column->begin() + static_cast<std::ptrdiff_t>(i));
+  measured.channels = {"ux", "uy", "force_right"};
+  Plate setup;
+  setup.shape = R"({"rectangle": [24, 20], "corner": [-12, -10], "holes": [{"centre": [0, 0], "radius": 4}]})";
+  setup.mesh = R"({"size": 2.5})";
+  setup.boundary = R"({"left": "measured", "right": "measured"})";
+  setup.angle = 90;
+  setup.smoothing = 6;
+  const auto gho = make_model("gho");
+  const auto test = make(setup, simulated(setup, measured, *gho, wall));
+  const std::size_t size = measured.channels.size() * measured.step.size();
+  for (const std::vector<double>& p : {std::vector<double>{10, 0.1, 10, 1, 45},
+                                       {7.528, 0.1697, 0.4415, 1.282, 11.52},
+                                       {0.2431, 0.2908, 451.8, 0.01028, 57.71},
+                                       {0.3717, 0.1285, 12.54, 19.69, 58.42}}) {
+    std::vector<double> values(size);
+    const Status status = test->predict({*gho, p, test->describe().nulls}, {values, {}, {}, {}});
+    EXPECT_TRUE(status.ok()) << p[0] << ": " << status.reason();
+  }
+}
+
 // Around a hole, where the points of the camera are too few for the strain, and with a material ten per cent away too.
 TEST(FullField, AFewStepsComeCloseToTheEquilibrium) {
   const auto pulled = [](const Point& at, double load) -> Point { return {0.2 * load * at[0], -0.05 * load * at[1]}; };

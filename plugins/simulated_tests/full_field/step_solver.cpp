@@ -9,10 +9,10 @@ namespace {
 
 constexpr const char* singular = "the stiffness is singular; narrow the bounds of the model's parameters";
 constexpr const char* no_edges = "the edges do not follow from the points; give a smaller \"smoothing\"";
-// Of the size of the specimen: chords shrink by a fifth or faster, and edges alone by far more.
-constexpr double precise_step = 1e-11, precise_edge = 1e-9;
-constexpr double loose_step = 1e-5;  ///< of the displacements
-constexpr double same_place = 1e-6;  ///< of the displacements
+// Of the size of the specimen: chords shrink by a fifth or faster.
+constexpr double precise_step = 1e-11;
+constexpr double loose_step = 1e-5, loose_edge = 1e-4;  ///< of the displacements
+constexpr double same_place = 1e-6;                     ///< of the displacements
 constexpr double near = 0.1;  ///< of the displacements: what Newton's method may have to move from the measured ones
 
 double largest(const std::vector<double>& of) {
@@ -43,10 +43,14 @@ std::vector<double> StepSolver::with_flaws(std::vector<double> u) const {
 
 std::optional<std::string> StepSolver::settle(bool by_parameters) {
   const Equilibrium::State before = body_.state();
-  const bool near_by = from_measured(true, by_parameters);
+  bool near_by = begin_as_measured() && converge(true, by_parameters);
   if (!near_by) {
     body_.begin(before);
     if (auto problem = along_the_way()) return problem;
+    const Equilibrium::State reached = body_.state();
+    near_by = converge(true, by_parameters);
+    if (!near_by) body_.begin(reached);
+    if (!near_by && !body_.stay()) return singular;
   }
   u_ = body_.displacements();
   f_ = body_.forces();
@@ -69,14 +73,17 @@ StepSolver::Change StepSolver::next() const {
   return change;
 }
 
+bool StepSolver::begin_as_measured() {
+  if (on_.has_starts()) body_.begin({with_flaws(on_.start(step_)), {}});
+  return on_.has_starts();
+}
+
 /// Newton's method on the inside and the edges at once, several steps a factor as long as they shrink. Precisely, the
 /// last factor is that of the solution, so that it has the derivatives too. What the points leave makes each new factor
 /// move the edges again, by a share of the time before: so the first step of a round is held against that of the round
 /// before.
-bool StepSolver::from_measured(bool precisely, bool by_parameters) {
+bool StepSolver::converge(bool precisely, bool by_parameters) {
   constexpr int rounds = 12, nearly = 3, chords = 8;
-  if (!on_.has_starts()) return false;
-  body_.begin({with_flaws(on_.start(step_)), {}});
   double before = 0, most = near * largest(body_.displacements());
   const double enough = precisely ? precise_step * size(on_.specimen()) : loose_step * largest(body_.displacements());
   for (int round = 0; round < (precisely ? rounds : nearly); ++round) {
@@ -110,13 +117,11 @@ std::optional<std::string> StepSolver::along_the_way() {
   constexpr double least_damping = 0.02, most_damping = 10, little = 1e-3;
   std::vector<double> prescribed = with_flaws(on_.beginning(step_));
   if (auto problem = body_.move_to(prescribed)) return problem;
-  const double extent = size(on_.specimen());
   double damping = 0, before = 0;
-  bool fresh = false, same = false;
+  bool fresh = true;
   Eigen::VectorXd left = rest(body_.displacements());
   for (int trial = 0; trial < trials && damping < most_damping; ++trial) {
-    const bool first = !fresh;
-    if (first) {
+    if (fresh) {
       if (!body_.linearise(false)) return singular;
       edges_.linearise(body_);
     }
@@ -128,20 +133,19 @@ std::optional<std::string> StepSolver::along_the_way() {
     edges_.add(change, next);
     const bool arrived = !body_.move_to(next);
     Eigen::VectorXd then = arrived ? rest(body_.displacements()) : left;
-    const bool small = damping == 0 && length < precise_edge * extent;
+    const bool small = damping == 0 && length < loose_edge * largest(body_.displacements());
     const double gain = 1 - then.squaredNorm() / left.squaredNorm();
     if (arrived && (small || gain >= 0)) {
+      if (small || (damping > 0 && gain < little)) return {};
       prescribed = std::move(next);
       left.swap(then);
-      if (first) same = damping == 0 && length < same_place * extent;
-      if ((small && same) || (damping > 0 && gain < little)) return {};
       if (gain > 0.1 || damping == 0) damping = damping > least_damping ? damping / 5 : 0;
-      fresh = !small && damping == 0 && (first || length < 0.2 * before);
+      fresh = damping > 0 || (!fresh && length > 0.2 * before);
       before = length;
     } else {
       body_.begin(state);
       if (!body_.stay()) return singular;
-      fresh = true;
+      fresh = false;
       damping = std::max(5 * damping, least_damping);
     }
   }
@@ -149,7 +153,7 @@ std::optional<std::string> StepSolver::along_the_way() {
 }
 
 std::optional<std::string> StepSolver::nearly_settle(bool by_parameters) {
-  const bool near_by = from_measured(false, by_parameters);
+  const bool near_by = begin_as_measured() && converge(false, by_parameters);
   if (!near_by) {
     body_.begin({with_flaws(on_.start(step_)), {}});
     if (!body_.linearise(false)) return singular;

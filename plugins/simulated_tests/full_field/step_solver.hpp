@@ -20,9 +20,10 @@ class StepSolver {
   StepSolver(const Meshed& on, std::size_t step, Equilibrium& body, const FlawedSheet* flaws = nullptr);
 
   /// Finite elements: the equilibrium itself with its derivatives, from the measured displacements, and where that
-  /// fails along the way from the step before. Empty where it is found, else what went wrong.
+  /// fails along the way from the step before. Far from the parameters of the points, the edges may fit a share of the
+  /// misfit worse than the best. Empty where it is found, else what went wrong.
   std::optional<std::string> settle(bool by_parameters);
-  /// The same from where the body is, along the way; moves the body only.
+  /// Near that from where the body is, along the way: an equilibrium of nearly the best edges. Moves the body only.
   std::optional<std::string> along_the_way();
   /// The modified Newton method from the smoothed measured displacements ũ, up to steps of 1e-5 of them,
   ///
@@ -42,7 +43,8 @@ class StepSolver {
   };
   [[nodiscard]] Change next() const;
   [[nodiscard]] std::vector<double> with_flaws(std::vector<double> u) const;
-  bool from_measured(bool precisely, bool by_parameters);
+  bool begin_as_measured();
+  bool converge(bool precisely, bool by_parameters);
   [[nodiscard]] const FieldRows::Step& step() const { return on_.rows().steps()[step_]; }
   [[nodiscard]] Eigen::VectorXd rest(const std::vector<double>& u) const;
 
