@@ -43,12 +43,12 @@ std::vector<double> StepSolver::with_flaws(std::vector<double> u) const {
 
 std::optional<std::string> StepSolver::settle(bool by_parameters) {
   const Equilibrium::State before = body_.state();
-  bool near_by = begin_as_measured() && converge(true, by_parameters);
+  bool near_by = begin_as_measured() && converge(by_parameters);
   if (!near_by) {
     body_.begin(before);
     if (auto problem = along_the_way()) return problem;
     const Equilibrium::State reached = body_.state();
-    near_by = converge(true, by_parameters);
+    near_by = converge(by_parameters);
     if (!near_by) body_.begin(reached);
     if (!near_by && !body_.stay()) return singular;
   }
@@ -78,16 +78,16 @@ bool StepSolver::begin_as_measured() {
   return on_.has_starts();
 }
 
-/// Newton's method on the inside and the edges at once, several steps a factor as long as they shrink. Precisely, the
+/// Newton's method on the inside and the edges at once, several steps a factor as long as they shrink. The
 /// last factor is that of the solution, so that it has the derivatives too. What the points leave makes each new factor
 /// move the edges again, by a share of the time before: so the first step of a round is held against that of the round
 /// before.
-bool StepSolver::converge(bool precisely, bool by_parameters) {
-  constexpr int rounds = 12, nearly = 3, chords = 8;
+bool StepSolver::converge(bool by_parameters) {
+  constexpr int rounds = 12, chords = 8;
   double before = 0, most = near * largest(body_.displacements());
-  const double enough = precisely ? precise_step * size(on_.specimen()) : loose_step * largest(body_.displacements());
-  for (int round = 0; round < (precisely ? rounds : nearly); ++round) {
-    if (!body_.linearise(precisely && by_parameters && round > 0)) return false;
+  const double enough = precise_step * size(on_.specimen());
+  for (int round = 0; round < rounds; ++round) {
+    if (!body_.linearise(by_parameters && round > 0)) return false;
     edges_.linearise(body_);
     double moved = 0;
     for (int chord = 0; chord < chords; ++chord) {
@@ -98,7 +98,7 @@ bool StepSolver::converge(bool precisely, bool by_parameters) {
       moved += step;
       if (step < enough) {
         // The edges fit best in the metric of their responses, so these have to be those of the solution.
-        if (!precisely || (round > 0 && moved < same_place * largest(body_.displacements()))) return true;
+        if (round > 0 && moved < same_place * largest(body_.displacements())) return true;
         break;
       }
       const bool slow = chord > 0 && step > 0.2 * before;
@@ -153,24 +153,52 @@ std::optional<std::string> StepSolver::along_the_way() {
 }
 
 std::optional<std::string> StepSolver::nearly_settle(bool by_parameters) {
-  const bool near_by = begin_as_measured() && converge(false, by_parameters);
-  if (!near_by) {
-    body_.begin({with_flaws(on_.start(step_)), {}});
+  begin_as_measured();
+  const Equilibrium::State begun = body_.state();
+  if (!body_.linearise(false)) return singular;
+  edges_.linearise(body_);
+  const std::vector<double> f = body_.forces();
+  const Change first = next();
+  const double step = largest(first.u);
+  if (!std::isfinite(step)) return no_edges;
+  const bool tried = step <= near * largest(begun.u);
+  const bool near_by = tried && chase(first);
+  if (tried && !near_by) {
+    body_.begin(begun);
     if (!body_.linearise(false)) return singular;
     edges_.linearise(body_);
   }
   u_ = body_.displacements();
-  f_ = body_.forces();
-  if (!near_by) {
-    const Change change = next();
-    if (!std::isfinite(largest(change.u))) return no_edges;
+  f_ = near_by ? body_.forces() : f;
+  if (!near_by)
     for (std::size_t dof = 0; dof < u_.size(); ++dof) {
-      u_[dof] += change.u[dof];
-      f_[dof] += change.f[dof];
+      u_[dof] += first.u[dof];
+      f_[dof] += first.f[dof];
     }
-  }
   if (by_parameters && !body_.stay_with_parameters()) return singular;
   return {};
+}
+
+/// Several steps a factor as long as they shrink, and a new factor as long as the steps of a round did.
+bool StepSolver::chase(Change change) {
+  constexpr int rounds = 3, chords = 8;
+  const double enough = loose_step * largest(body_.displacements());
+  for (int round = 0; round < rounds; ++round) {
+    const double first = largest(change.u);
+    double before = 1e300;
+    for (int chord = 0; chord < chords; ++chord) {
+      const double step = largest(change.u);
+      if (!(step < 0.2 * before)) break;
+      if (!body_.move_by(change.u)) return false;
+      if (step < enough) return true;
+      before = step;
+      change = next();
+    }
+    if (!(largest(change.u) < first) || round + 1 == rounds || !body_.linearise(false)) return false;
+    edges_.linearise(body_);
+    change = next();
+  }
+  return false;
 }
 
 void StepSolver::by_parameter(std::size_t j, std::vector<double>& du, std::vector<double>& df) const {

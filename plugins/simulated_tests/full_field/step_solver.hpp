@@ -44,7 +44,8 @@ class StepSolver {
   [[nodiscard]] Change next() const;
   [[nodiscard]] std::vector<double> with_flaws(std::vector<double> u) const;
   bool begin_as_measured();
-  bool converge(bool precisely, bool by_parameters);
+  bool converge(bool by_parameters);
+  bool chase(Change change);
   [[nodiscard]] const FieldRows::Step& step() const { return on_.rows().steps()[step_]; }
   [[nodiscard]] Eigen::VectorXd rest(const std::vector<double>& u) const;
 
