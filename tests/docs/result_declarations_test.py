@@ -40,6 +40,12 @@ def text_of(path, root=SOURCE):
     return (root / path).read_text(encoding="utf-8")
 
 
+def source_of(path, root=SOURCE):
+    """A source with the text of each key in place of its constant."""
+    texts = dict(re.findall(r'Key (\w+)\{"([^"]+)"\}', text_of(KEYS)))
+    return re.sub(r"\bkey::(\w+)", lambda found: f'"{texts[found[1]]}"', text_of(path, root))
+
+
 def parts_of(part):
     """A schema and all schemas in it."""
     yield part
@@ -51,7 +57,7 @@ def parts_of(part):
 def written_by(source, root=SOURCE):
     """The source of a code list: a function, a table or a statement, which begins with the words `from`; or what a
     pattern finds."""
-    text = text_of(source["file"], root)
+    text = source_of(source["file"], root)
     if "pattern" in source:
         return "".join(re.findall(source["pattern"], text))
     start = text.index(source["from"]) + len(source["from"])
@@ -74,7 +80,7 @@ def sources_of(part):
 
 
 def keys_in(path):
-    text = text_of(path)
+    text = source_of(path)
     chosen = re.findall(r'\[[^\]"]*"(\w+)"(?: : "(\w+)")?\]', text)  # ["key"], and [one ? "key" : "other"]
     return set(re.findall(r'(?:\{|print_\w+\()"(\w+)",', text)) | {key for keys in chosen for key in keys if key}
 

@@ -17,6 +17,7 @@
 #include "importing/options.hpp"
 #include "importing/sign.hpp"
 #include "importing/sizes.hpp"
+#include "importing/tension.hpp"
 #include "importing/words.hpp"
 #include "tunica/error.hpp"
 
@@ -110,8 +111,7 @@ class File {
     said_.compression = said_.compression || mapping.compression;
     if (said_.bending)
       note(
-          "its name, or a line above its table, speaks of bending, and no test here bends a beam: use it only where "
-          "the "
+          "its name, or a line above its table, speaks of bending, and no test here bends a beam: use it only if the "
           "specimen was pulled or pressed");
     Json columns = Json::object();
     for (const auto& [name, column] : mapped_)
@@ -181,37 +181,6 @@ class File {
     });
   }
 
-  /// Whether the forces of this file are those on one metre of an edge. Both kinds together are refused.
-  bool takes_tensions() {
-    const ColumnGuess *edge = nullptr, *force = nullptr;
-    for (const auto& [name, column] : mapped_) {
-      if (data::quantity_named(name, factory_.observables)->kind != From::force) continue;
-      const ColumnGuess& guess = columns_[csv_.column(column)];
-      const bool said_force = std::ranges::any_of(answers_.units, [&](const auto& one) {
-        return (one.first == column || one.first == guess.title) && measures(one.second, "mN");
-      });
-      (guess.per_metre && !said_force ? edge : force) = &guess;
-    }
-    if (edge == nullptr) return false;
-    if (force != nullptr)
-      throw InputError(fmt::format(
-          "{}, line {}: '{}' is a force per length, and '{}' a force. A test takes one kind; name the right columns "
-          "with --column.",
-          file_.string(), csv_.header_line, edge->title, force->title));
-    for (const auto& [option, given] : {std::pair{"--width", &answers_.width}, std::pair{"--area", &answers_.area},
-                                        std::pair{"--diameter", &answers_.diameter}})
-      if (!given->empty())
-        throw InputError(fmt::format(
-            "{}: '{}' is a force per length, which needs the thickness only. Leave {} out, or give the unit of a force "
-            "with --unit.",
-            option, edge->title, option));
-    note(
-        "'{}' is taken as a force per length of the unloaded edge; the thickness makes it a nominal stress. If the "
-        "length is that of the loaded edge, compute the stress first",
-        edge->title);
-    return true;
-  }
-
   void add_sizes(Json& data, const Json& where) {
     Json specimen = Json::object();
     KnownSizes table;
@@ -222,7 +191,11 @@ class File {
       specimen[key] = !given.empty() ? given : !found.empty() ? found : ask_(question);
     };
     direction_ = table.direction;
-    if (takes_tensions()) {
+    if (const std::string tension = tension_of(csv_, columns_, mapped_, factory_, answers_); !tension.empty()) {
+      note(
+          "'{}' is taken as a force per length of the unloaded edge; the thickness makes it a nominal stress. If the "
+          "length is that of the loaded edge, compute the stress first",
+          tension);
       specimen["width"] = "1 m";
       size("thickness", answers_.thickness, table.thickness,
            {"Its thickness, with its unit", "--thickness", "1.5 mm", true});
@@ -257,8 +230,7 @@ class File {
              : at_rest.empty()           ? ""
                                          : at_rest.front().second,
              {"Gauge length, that is the length at stretch 1, with its unit, or \"preload\"; of a specimen that is "
-              "pressed, "
-              "--height",
+              "pressed, --height",
               "--gauge-length", "20 mm", true});
     }
     if (!specimen.empty()) data["specimen"] = specimen;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importing/tension.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "data/quantities.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::importing {
+
+std::string tension_of(const data::Csv& csv, const std::vector<ColumnGuess>& columns,
+                       const std::vector<std::pair<std::string, std::string>>& mapped, const TestFactory& factory,
+                       const Answers& answers) {
+  const ColumnGuess *tense = nullptr, *force = nullptr;
+  for (const auto& [name, column] : mapped) {
+    if (data::quantity_named(name, factory.observables)->kind != data::Quantity::Kind::force) continue;
+    const ColumnGuess& guess = columns[csv.column(column)];
+    const bool said_force = std::ranges::any_of(answers.units, [&, &of = column](const auto& one) {
+      return (one.first == of || one.first == guess.title) && measures(one.second, "mN");
+    });
+    (guess.per_metre && !said_force ? tense : force) = &guess;
+  }
+  if (tense == nullptr) return {};
+  if (force != nullptr)
+    throw InputError(fmt::format(
+        "{}, line {}: '{}' is a force per length, and '{}' a force. A test takes one kind; name the right columns with "
+        "--column.",
+        csv.file.string(), csv.header_line, tense->title, force->title));
+  for (const auto& [option, given] : {std::pair{"--width", &answers.width}, std::pair{"--area", &answers.area},
+                                      std::pair{"--diameter", &answers.diameter}})
+    if (!given->empty())
+      throw InputError(
+          fmt::format("{}: '{}' is a force per length, which needs the thickness only. Leave {} out, or give the unit "
+                      "of a force with "
+                      "--unit.",
+                      option, tense->title, option));
+  return tense->title;
+}
+
+}  // namespace tunica::importing
