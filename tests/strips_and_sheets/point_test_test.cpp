@@ -81,9 +81,9 @@ TEST(PointTest, DerivativesFollowBothAbscissaeAndTheParameters) {
   const auto sheet = make_biaxial();
   const std::size_t n = along_t.size();
   std::vector<double> jacobian(gho.size() * 2 * n), of_sheet(jacobian.size()), by_x(4 * n), sheet_by_x(4 * n);
-  ASSERT_TRUE(points.predict({*model, gho, {}}, {{}, jacobian, {}, by_x}).ok());
+  ASSERT_TRUE(points.predict({*model, gho, {}}, {{}, jacobian, by_x, {}}).ok());
   const std::vector<double> own(sheet->describe().parameters.size(), 0.0);
-  ASSERT_TRUE(sheet->predict({*model, gho, own}, {{}, of_sheet, {}, sheet_by_x}).ok());
+  ASSERT_TRUE(sheet->predict({*model, gho, own}, {{}, of_sheet, sheet_by_x, {}}).ok());
   expect_close(jacobian, of_sheet);
   expect_close(by_x, sheet_by_x);
 }
@@ -100,7 +100,7 @@ TEST(PointTest, WithMemoryItAnswersNoDerivativesThatItDoesNotHave) {
   std::vector<double> jacobian(3 * 2 * along_t.size()), by_x(4 * along_t.size());
   EXPECT_THAT(make_points(clock).predict({*viscous, p, {}}, {{}, jacobian, {}, {}}).reason(),
               HasSubstr("difference the whole prediction"));
-  EXPECT_THAT(make_points(clock).predict({*viscous, p, {}}, {{}, {}, {}, by_x}).reason(), HasSubstr("along the path"));
+  EXPECT_THAT(make_points(clock).predict({*viscous, p, {}}, {{}, {}, by_x, {}}).reason(), HasSubstr("along the path"));
 }
 
 TEST(PointTest, RefusesAMissingAbscissaAndTimeThatRunsBack) {

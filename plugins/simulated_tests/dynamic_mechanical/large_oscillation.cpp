@@ -17,6 +17,8 @@ constexpr int newton_iterations = 40;
 constexpr double last_step = 1e-7;  ///< of y, taken to first order
 constexpr int most_cycles = 60;
 constexpr double alike = 1e-10;      ///< moduli of two cycles, relative
+constexpr double rounding = 1e-14;   ///< of a cycle; the state has it over what a cycle forgets
+constexpr double never = 1e-12;      ///< a part of the state that a cycle forgets, at least; less is nothing
 constexpr double one_sided = 0.1;    ///< slopes up and down of a running maximum differ by 1
 constexpr double state_part = 1e-4;  ///< of differences by the state, relative; branches are linear in it
 
@@ -113,6 +115,7 @@ bool LargeOscillation::forget(std::span<const Row> rows) {
   const std::size_t m = model_.describe().history_size, n = 2 * m + 1;  // up and down in each, and as it is
   left_.clear();
   grows_.clear();
+  alike_.clear();
   if (m == 0) return true;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
@@ -145,7 +148,13 @@ bool LargeOscillation::forget(std::span<const Row> rows) {
       kept.row(static_cast<Eigen::Index>(k)).setZero();
       kept(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) = 1;
     }
-    left_.emplace_back().setThreshold(1e-12);
+    double least = 1;
+    for (std::size_t k = 0; k < m; ++k) {
+      const double lost = kept(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k));
+      if (lost > never) least = std::min(least, lost);
+    }
+    alike_.push_back(alike + rounding / least);
+    left_.emplace_back().setThreshold(never);
     left_.back().compute(kept);
   }
   return true;
@@ -173,8 +182,8 @@ bool LargeOscillation::settled(std::span<const Row> rows, std::size_t per_cycle,
     std::copy(found.begin(), found.end(), before.begin());
     if (!cycle(rows, per_cycle, guess, found)) return false;
     const auto apart = std::find_if(found.begin(), found.end(), [&](const Complex& now) {
-      const Complex& last = before[static_cast<std::size_t>(&now - found.data())];
-      return !(std::abs(now - last) <= alike * std::abs(now));
+      const auto i = static_cast<std::size_t>(&now - found.data());
+      return !(std::abs(now - before[i]) <= alike_[i] * std::abs(now));
     });
     if (k > 0 && apart == found.end()) return true;
     if (apart != found.end()) failed_row_ = static_cast<std::size_t>(apart - found.begin());
