@@ -31,6 +31,6 @@ changed = [name for name in headers if known.get(name) != found[name]]
 again = f"{sys.argv[0]} {include} {record} --write"
 if changed and number == int(known["api"]):
     sys.exit(f"the code of {', '.join(changed)} has changed, and TUNICA_PLUGIN_API is still {number}: raise it by one in "
-             f"tunica/plugin.hpp, say in CHANGELOG.md what plugins have to change, then record it: {again}")
+             f"tunica/plugin.hpp, say in docs/migration.md what plugins have to change, then record it: {again}")
 if changed or number != int(known["api"]):
     sys.exit(f"TUNICA_PLUGIN_API is {number}, recorded is {known['api']}; record it: {again}")

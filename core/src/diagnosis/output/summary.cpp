@@ -67,10 +67,11 @@ std::string verdict_line(const Diagnosis& d) {
                            fmt::join(claim.ambiguity_set, " and "));
       if (!explanation.reasons.empty() && explanation.reasons.front().kind == ReasonKind::several_lead)
         return "INDISTINGUISHABLE: " + joined_reasons(explanation);
-      return fmt::format("INDISTINGUISHABLE: {} explain the misfit about equally well{}{}",
-                         fmt::join(explanations(claim), ", "),
-                         explanation.unlisted || explanation.reasons.empty() ? "" : "; ",
-                         explanation.unlisted ? "" : joined_reasons(explanation));
+      return fmt::format(
+          "INDISTINGUISHABLE: {} {}{}{}", fmt::join(explanations(claim), ", "),
+          explanations(claim).size() == 1 ? "explains the misfit" : "explain the misfit about equally well",
+          explanation.unlisted || explanation.reasons.empty() ? "" : "; ",
+          explanation.unlisted ? "" : joined_reasons(explanation));
     case Verdict::suspect_data:
       return "SUSPECT DATA: " + joined_reasons(explanation);
     case Verdict::discovered:
