@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """check.py RESULTS: two mechanisms together take the misfit of three inflations: fibres along both axes, as in the four
-families of the source, or along one with a matrix that stiffens. Nobody says in which order the rows were measured (they
+families of the source, or along one with tethering. Nobody says in which order the rows were measured (they
 stand from high pressure to low), so softening is not looked for, and their order in the file changes nothing."""
 import json
 import os
