@@ -58,7 +58,7 @@ other = table("other.csv", ["Zeit;Weg;Kraft", "s;mm;N", "0;0;0", "1;2;0,6", "2;4
 by_size = ("--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "20 mm")
 experiment, said = imported(strip, other, *by_size)
 assert [run["tests"] for run in experiment["runs"]] == [["strip"], ["other"]], experiment["runs"]
-assert "of one specimen say --together" in said, said
+assert "If they are one specimen, say --together" in said, said
 experiment, said = imported(strip, other, "--together", *by_size)
 assert [run["tests"] for run in experiment["runs"]] == [["strip", "other"]], experiment["runs"]
 assert "--together" not in said, said
