@@ -123,18 +123,15 @@ const Word* meaning(const ColumnGuess& guess, const Words& words) {
 
 /// A force per length, as the tension of a membrane: "Tx [N/m]". Its unit becomes that of the force on one metre.
 bool guess_tension(ColumnGuess& guess, const Words& words) {
-  const std::size_t slash = guess.unit.find('/');
-  if (slash == std::string::npos || !measures(guess.unit, "N/m")) return false;
-  const std::string force = guess.unit.substr(0, slash), length = guess.unit.substr(slash + 1);
-  if (!measures(force, "mN") || !measures(length, "mm")) return false;
+  const auto force = force_on_a_metre(guess.unit);
+  if (!force) return false;
   if (has_any(words, {"shear", "total", "=12", "=21", "=xy"})) return false;
   const bool x = has_any(words, {"=tx", "=t1", "=t11", "=nx", "=n1", "=n11"});
   const bool y = has_any(words, {"=ty", "=t2", "=t22", "=ny", "=n2", "=n22"});
   if (!x && !y && !has_any(words, {"tension", "force", "load", "stress", "kraft", "spannung", "=t", "=n"}))
     return false;
-  const double lengths = data::convert(1, "m", length);
   guess.kind = guess.quantity = "force";
-  guess.unit = lengths == 1 ? force : fmt::format("{:g} {}", lengths, force);
+  guess.unit = *force;
   guess.per_metre = guess.unit_from_name = true;
   guess.direction = x ? "circumferential" : y ? "axial" : direction_in(words);
   return true;
@@ -233,6 +230,15 @@ bool measures(std::string_view unit, std::string_view base) {
   } catch (const InputError&) {
     return false;
   }
+}
+
+std::optional<std::string> force_on_a_metre(const std::string& unit) {
+  const std::size_t slash = unit.find('/');
+  if (slash == std::string::npos || !measures(unit, "N/m")) return std::nullopt;
+  const std::string force = unit.substr(0, slash), length = unit.substr(slash + 1);
+  if (!measures(force, "mN") || !measures(length, "mm")) return std::nullopt;
+  const double lengths = data::convert(1, "m", length);
+  return lengths == 1 ? force : fmt::format("{:g} {}", lengths, force);
 }
 
 std::vector<ColumnGuess> guess_columns(const data::Csv& csv) {

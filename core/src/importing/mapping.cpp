@@ -36,13 +36,13 @@ class Mapper {
       : csv_(csv), columns_(columns), factory_(factory), answers_(answers), ask_(ask) {}
 
   Mapping map() {
+    for (const auto& [column, unit] : answers_.units) mapping_.units[column] = unit;
     for (const auto& [name, column] : answers_.columns) {
       if (!quantity(name)) refuse_name(name);
       const std::size_t index = csv_.column(column);
       take(as_stated(name, columns_[index]), index, column);
     }
     refuse_other_tests();
-    for (const auto& [column, unit] : answers_.units) mapping_.units[column] = unit;
     choose();
     refuse_gaps();
     check_measures();
@@ -95,7 +95,13 @@ class Mapper {
     const auto answer = std::ranges::find_if(
         answers_.units, [&](const auto& one) { return one.first == column || one.first == guess.title; });
     if (answer != answers_.units.end()) {
-      if (guess.per_metre && !measures(answer->second, "mN")) mapping_.units[answer->first] = guess.unit;
+      if (!guess.per_metre || measures(answer->second, "mN")) return;
+      const auto force = force_on_a_metre(answer->second);
+      if (!force)
+        throw InputError(fmt::format(
+            "--unit '{}={}': the column is a force per length. Give the unit of one, such as N/m, or that of a force.",
+            answer->first, answer->second));
+      mapping_.units[answer->first] = *force;
       return;
     }
     const auto of = quantity(name);

@@ -15,7 +15,8 @@ std::string tension_of(const data::Csv& csv, const std::vector<ColumnGuess>& col
                        const Answers& answers) {
   const ColumnGuess *tense = nullptr, *force = nullptr;
   for (const auto& [name, column] : mapped) {
-    if (data::quantity_named(name, factory.observables)->kind != data::Quantity::Kind::force) continue;
+    const data::Quantity::Kind kind = data::quantity_named(name, factory.observables)->kind;
+    if (kind != data::Quantity::Kind::force && kind != data::Quantity::Kind::plate_force) continue;
     const ColumnGuess& guess = columns[csv.column(column)];
     const bool said_force = std::ranges::any_of(answers.units, [&, &of = column](const auto& one) {
       return (one.first == of || one.first == guess.title) && measures(one.second, "mN");
@@ -23,6 +24,11 @@ std::string tension_of(const data::Csv& csv, const std::vector<ColumnGuess>& col
     (guess.per_metre && !said_force ? tense : force) = &guess;
   }
   if (tense == nullptr) return {};
+  if (factory.specimen == Specimen::block)
+    throw InputError(fmt::format(
+        "{}, line {}: '{}' is a force per length, and a block bears a force on its plates. Name another column with "
+        "--column.",
+        csv.file.string(), csv.header_line, tense->title));
   if (force != nullptr)
     throw InputError(fmt::format(
         "{}, line {}: '{}' is a force per length, and '{}' a force. A test takes one kind; name the right columns with "
