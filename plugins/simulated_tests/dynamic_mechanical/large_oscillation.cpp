@@ -16,9 +16,10 @@ using Complex = std::complex<double>;
 constexpr int newton_iterations = 40;
 constexpr double last_step = 1e-7;  ///< of y, taken to first order
 constexpr int most_cycles = 60;
-constexpr double alike = 1e-10;      ///< moduli of two cycles, relative
-constexpr double rounding = 1e-14;   ///< of a cycle; the state has it over what a cycle forgets
-constexpr double never = 1e-12;      ///< a part of the state that a cycle forgets, at least; less is nothing
+constexpr double alike = 1e-10;     ///< moduli of two cycles, relative
+constexpr double rounding = 1e-14;  ///< of a cycle; the state has it over what a cycle forgets
+constexpr double most_alike = 1e-6;
+constexpr double never = 1e-10;      ///< a part of the state that a cycle forgets, at least; less is nothing
 constexpr double one_sided = 0.1;    ///< slopes up and down of a running maximum differ by 1
 constexpr double state_part = 1e-4;  ///< of differences by the state, relative; branches are linear in it
 
@@ -110,7 +111,8 @@ bool LargeOscillation::cycle(std::span<const Row> rows, std::size_t per_cycle, s
 }
 
 /// What one period at rest leaves of a change of the state: P. Of branches it is what a cycle leaves, whatever its
-/// path. A running maximum, as the largest load so far, keeps a change upwards and undoes one downwards.
+/// path. A running maximum, as the largest load so far, keeps a change upwards and undoes one downwards. It takes what
+/// a cycle leaves, and so does what no cycle forgets.
 bool LargeOscillation::forget(std::span<const Row> rows) {
   const std::size_t m = model_.describe().history_size, n = 2 * m + 1;  // up and down in each, and as it is
   left_.clear();
@@ -140,22 +142,22 @@ bool LargeOscillation::forget(std::span<const Row> rows) {
         kept(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)) -=
             (after[c * n + 2 * k] - after[c * n + 2 * k + 1]) / (2 * moved[k]);
     auto& grows = grows_.emplace_back(m, false);
+    double least = 1;
     for (std::size_t k = 0; k < m; ++k) {
       const double at_rest = after[k * n + 2 * m], up = (after[k * n + 2 * k] - at_rest) / moved[k],
                    down = (at_rest - after[k * n + 2 * k + 1]) / moved[k];
-      grows[k] = std::abs(up - down) > one_sided;
-      if (!grows[k]) continue;
-      kept.row(static_cast<Eigen::Index>(k)).setZero();
-      kept(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) = 1;
+      const auto row_of = static_cast<Eigen::Index>(k);
+      const double lost = kept(row_of, row_of);
+      grows[k] = std::abs(up - down) > one_sided || !(lost > never);
+      if (!grows[k]) {
+        least = std::min(least, lost);
+        continue;
+      }
+      kept.row(row_of).setZero();
+      kept(row_of, row_of) = 1;
     }
-    double least = 1;
-    for (std::size_t k = 0; k < m; ++k) {
-      const double lost = kept(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k));
-      if (lost > never) least = std::min(least, lost);
-    }
-    alike_.push_back(alike + rounding / least);
-    left_.emplace_back().setThreshold(never);
-    left_.back().compute(kept);
+    alike_.push_back(std::min(alike + rounding / least, most_alike));
+    left_.emplace_back(kept);
   }
   return true;
 }

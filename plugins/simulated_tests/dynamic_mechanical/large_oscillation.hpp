@@ -91,7 +91,7 @@ class LargeOscillation {
   std::string failure_;
   std::optional<std::size_t> failed_row_;
   std::vector<Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>> left_;  ///< 1 − P of each row
-  std::vector<std::vector<bool>> grows_;  ///< of each row: whether a variable of the state is a running maximum
+  std::vector<std::vector<bool>> grows_;  ///< of each row: whether a variable of the state takes what a cycle leaves
   std::vector<double> alike_;             ///< of each row: how far moduli of two settled cycles differ, relative
   // Structures of arrays over the rows.
   std::vector<double> C_, stress_, tangent_, time_, state_, after_, y_, nominal_;
