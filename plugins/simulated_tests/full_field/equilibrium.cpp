@@ -98,6 +98,7 @@ bool Equilibrium::search_along(const Eigen::VectorXd& du) {
     return sum;
   };
   const double first = slope();
+  const std::vector<double> normal = membrane_.normal;
   double moved = 0, next = 1;
   for (int cut = 0; cut < cuts; ++cut) {
     add_free((next - moved) * du, u_);
@@ -106,6 +107,7 @@ bool Equilibrium::search_along(const Eigen::VectorXd& du) {
     const double now = usable ? slope() : 0;
     if (usable && (first >= 0 || now <= -0.5 * first)) return true;
     next *= usable ? std::clamp(first / (first - now), 0.1, 0.5) : 0.3;
+    if (!usable) membrane_.normal = normal;
   }
   return false;
 }
