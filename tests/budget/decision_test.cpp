@@ -104,6 +104,26 @@ TEST_F(Deciding, APlaceIsPartOfTheAnswer) {
   expect({here, there}, Verdict::leading, {"gain", "gain"});
 }
 
+/// Each of two tests in a state of its own is the same; of three it is not.
+TEST_F(Deciding, TwoTestsDifferWhicheverIsCalledAnotherState) {
+  Contender here = rig("another_state", 0.98, 0.6), there = rig("another_state", 0.98, 0.39);
+  here.place.tests = {"a"};
+  there.place.tests = {"b"};
+  budget.base_channels.resize(2);
+  budget.base_channels[0].test = "a";
+  budget.base_channels[1].test = "b";
+  expect({here, there}, Verdict::leading, {"another_state", "another_state"});
+  budget.base_channels.emplace_back().test = "c";
+  expect({here, there}, Verdict::indistinguishable, {"another_state", "another_state"});
+}
+
+/// What takes as much and is a hundred times less likely is no rival beside a doubt either.
+TEST_F(Deciding, EvidenceExcludesRivalsBesideADoubt) {
+  budget.unlisted_probability = 0.5;
+  expect({rig("gain", 0.95, 0.4899), rig("offset", 0.85, 0.0001)}, Verdict::leading, {"gain"});
+  expect({rig("gain", 0.95, 0.47), rig("offset", 0.85, 0.02)}, Verdict::indistinguishable, {"gain", "offset"});
+}
+
 /// It takes 95 % and leaves 3 % of the range at most.
 TEST_F(Deciding, WhatLeavesNextToNothingLeadsWhateverTheEvidence) {
   Contender term = form("stretches", 0.96, 0.1);

@@ -54,13 +54,11 @@ bool is_enough_alone(const Budget& budget, const Contender& top) {
          top.rest.rms <= half_again * budget.tolerance.share && budget.unlisted_probability < 1 - sure_enough;
 }
 
-/// Whether the evidence is enough: sure among all, or among the causes that are listed. Then the odds of an unlisted
-/// misfit are three to one at most, and the base misses by more than anybody would tolerate. The sentence says the
-/// odds.
-bool is_likely(const Budget& budget, const Contenders& some, double sure) {
-  const double probability = probability_of(some), unlisted = budget.unlisted_probability;
-  return probability >= sure || (unlisted <= may_be_unlisted && budget.base.rms > budget.tolerance.share &&
-                                 probability >= sure * (1 - unlisted));
+/// The probability that is asked: of all, or of the causes that are listed. Then the odds of an unlisted misfit are
+/// three to one at most, and the base misses by more than anybody would tolerate. The sentence gives its probability.
+double asked(const Budget& budget, double sure) {
+  const bool may_be_said = budget.unlisted_probability <= may_be_unlisted && budget.base.rms > budget.tolerance.share;
+  return may_be_said ? sure * (1 - budget.unlisted_probability) : sure;
 }
 
 /// What takes about as much as the best, less what the evidence excludes. Forms of the energy are many and alike: among
@@ -113,19 +111,21 @@ Decision decided(const Budget& budget) {
   for (const Contender& one : budget.contenders)
     if (one.share > top->share + ahead) return {};  // its name is not for the runner-up to have
   if (top->share < most_of_it) return leading_by_steps(budget);
-  const double sure = enough(budget, *top);
+  const double sure = asked(budget, enough(budget, *top));
   Contenders ties = rivals_of(budget, *top, sure);
   const bool alone = is_enough_alone(budget, *top);
   if (alone) std::erase_if(ties, [&](const Contender* one) { return one->probability < unlikely * top->probability; });
   ties = with_another_state_judged(std::move(ties), sure);
   if (std::none_of(ties.begin(), ties.end(), [](const Contender* one) { return believed(*one); })) return {};
-  if (!is_likely(budget, ties, sure) && !alone) return {};
+  if (probability_of(ties) < sure && !alone) return {};
   std::stable_sort(ties.begin(), ties.end(), [](const Contender* a, const Contender* b) {
     return std::pair(!believed(*a), -a->probability) < std::pair(!believed(*b), -b->probability);
   });
   if (ties.front()->share < most_of_it) return {};
-  std::set<std::string> answers;
-  for (const Contender* one : ties) answers.insert(one->answer());
+  // Of two tests, each in a state of its own is the same: they differ.
+  std::set<std::string> answers, tests;
+  for (const ChannelSize& channel : budget.base_channels) tests.insert(channel.test);
+  for (const Contender* one : ties) answers.insert(one->is_state() && tests.size() == 2 ? one->sort : one->answer());
   return {answers.size() == 1 ? Verdict::leading : Verdict::indistinguishable, std::move(ties)};
 }
 
