@@ -32,9 +32,16 @@ Decision leading_by_steps(const Budget& budget) {
   for (const auto& [id, part] : parts) ranking.emplace_back(part, id);
   std::sort(ranking.rbegin(), ranking.rend());
   if (ranking[0].first < most_of_it || ranking[0].first < ranking[1].first + ahead) return {};
-  for (const Contender& one : budget.contenders)
-    if (one.id == ranking[0].second && believed(one)) return {Verdict::leading, {&one}};
-  return {};
+  // The place is that of the step: a mechanism may be a contender in another one, too.
+  const Contender* lead = nullptr;
+  for (const Contender& one : budget.contenders) {
+    if (one.id != ranking[0].second || !believed(one)) continue;
+    const bool is_step = std::ranges::any_of(
+        budget.steps, [&](const Step& step) { return step.id == one.id && step.place == one.place; });
+    if (is_step) return {Verdict::leading, {&one}};
+    if (lead == nullptr) lead = &one;
+  }
+  return lead == nullptr ? Decision{} : Decision{Verdict::leading, {lead}};
 }
 
 /// The probability that is enough. What nobody would believe and takes far less is no reason to doubt, unless it has
