@@ -220,7 +220,10 @@ TEST(Cards, TakeTheSofteningOfAMechanism) {
   EXPECT_THAT(cards::write_card(Target::ansys, yeoh, settings), EndsWith("TB,CDM,1,1,3,PSE2\nTBDATA,1, 2, 0, 0.394\n"));
   EXPECT_THAT(refusal([&] { (void)cards::write_card(Target::calculix, yeoh, settings); }),
               AllOf(HasSubstr("no softening of Ogden and Roxburgh"), HasSubstr("export for Abaqus or Ansys")));
-  EXPECT_THAT(refusal([&] { (void)softened("yeoh", {418, -33.6, 5.74, 1, 0.394}); }), HasSubstr("at s = 1 all is lost"));
+  EXPECT_THAT(refusal([&] {
+                (void)softened("yeoh", {418, -33.6, 5.74, 1, 0.394});
+              }),
+              HasSubstr("at s = 1 all is lost"));
   const cards::Material fibres = softened("hgo", {10, 5, 1, 40, 0.5, 0.394});
   EXPECT_THAT(refusal([&] { (void)cards::write_card(Target::abaqus, fibres, settings); }),
               HasSubstr("for isotropic energies only"));
