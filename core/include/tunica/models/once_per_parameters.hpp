@@ -26,6 +26,7 @@ namespace tunica {
 template <class Made>
 class OncePerParameters {
  public:
+  /// With what makes a value of the parameters.
   explicit OncePerParameters(std::function<Made(std::span<const double>)> make) : make_(std::move(make)) {}
 
   /// The value at these parameters. What `make` throws, it throws.
