@@ -13,7 +13,7 @@ bool is_credible(const Inquiry& inquiry, const Analysis& analysis, const Refit& 
 
 /// What is believed of amplitudes enters the weights, which then order anew what was fitted. The odds are twenty to one
 /// against an amplitude that is not credible. Beside a credible explanation that leaves only noise, the others together
-/// weigh a twentieth of it at most: they fall out of the credible set.
+/// weigh a twentieth of it at most.
 void weigh_credibility(const Inquiry& inquiry, const Analysis& analysis, std::vector<Single>& singles);
 void weigh_credibility(const Inquiry& inquiry, const Analysis& analysis, std::vector<Group>& groups);
 
