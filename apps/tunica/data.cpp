@@ -38,9 +38,11 @@ int data(const GlobalOptions& global, const DataOptions& options) {
     }
     results.complete();
   }
-  if (options.as_json) print_json(comparison::taken_rows_json(tests));
+  if (options.as_json) {
+    print_json(comparison::taken_rows_json(tests));
+    return done;
+  }
   for (const auto& taken : tests) {
-    if (options.as_json) break;
     answer("{}: {}\n", taken.table.test, text::counted(taken.table.columns.front().size(), "row", "rows"));
     for (const auto& line : taken.understood) answer("{}\n", text::hanging("  ", line));
   }

@@ -121,6 +121,16 @@ const Word* meaning(const ColumnGuess& guess, const Words& words) {
   return nullptr;
 }
 
+/// "100 mN" of "mN/cm": what a force per length is on one metre of an edge; nothing of another unit.
+std::optional<std::string> force_on_a_metre(const std::string& unit) {
+  const std::size_t slash = unit.find('/');
+  if (slash == std::string::npos || !measures(unit, "N/m")) return std::nullopt;
+  const std::string force = unit.substr(0, slash), length = unit.substr(slash + 1);
+  if (!measures(force, "mN") || !measures(length, "mm")) return std::nullopt;
+  const double lengths = data::convert(1, "m", length);
+  return lengths == 1 ? force : fmt::format("{:g} {}", lengths, force);
+}
+
 /// A force per length, as the tension of a membrane: "Tx [N/m]". Its unit becomes that of the force on one metre.
 bool guess_tension(ColumnGuess& guess, const Words& words) {
   const auto force = force_on_a_metre(guess.unit);
@@ -230,15 +240,6 @@ bool measures(std::string_view unit, std::string_view base) {
   } catch (const InputError&) {
     return false;
   }
-}
-
-std::optional<std::string> force_on_a_metre(const std::string& unit) {
-  const std::size_t slash = unit.find('/');
-  if (slash == std::string::npos || !measures(unit, "N/m")) return std::nullopt;
-  const std::string force = unit.substr(0, slash), length = unit.substr(slash + 1);
-  if (!measures(force, "mN") || !measures(length, "mm")) return std::nullopt;
-  const double lengths = data::convert(1, "m", length);
-  return lengths == 1 ? force : fmt::format("{:g} {}", lengths, force);
 }
 
 std::vector<ColumnGuess> guess_columns(const data::Csv& csv) {

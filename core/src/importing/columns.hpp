@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,8 +55,5 @@ Specimen likely_specimen(const std::vector<ColumnGuess>& columns);
 
 /// Whether a unit measures what the base unit does; grams count as a force.
 bool measures(std::string_view unit, std::string_view base);
-
-/// "100 mN" of "mN/cm": what a force per length is on one metre of an edge; nothing of another unit.
-std::optional<std::string> force_on_a_metre(const std::string& unit);
 
 }  // namespace tunica::importing

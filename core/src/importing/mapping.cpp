@@ -95,13 +95,7 @@ class Mapper {
     const auto answer = std::ranges::find_if(
         answers_.units, [&](const auto& one) { return one.first == column || one.first == guess.title; });
     if (answer != answers_.units.end()) {
-      if (!guess.per_metre || measures(answer->second, "mN")) return;
-      const auto force = force_on_a_metre(answer->second);
-      if (!force)
-        throw InputError(fmt::format(
-            "--unit '{}={}': the column is a force per length. Give the unit of one, such as N/m, or that of a force.",
-            answer->first, answer->second));
-      mapping_.units[answer->first] = *force;
+      if (guess.per_metre) mapping_.units[answer->first] = guess.unit;
       return;
     }
     const auto of = quantity(name);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importing/tension.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "data/quantities.hpp"
@@ -18,10 +16,7 @@ std::string tension_of(const data::Csv& csv, const std::vector<ColumnGuess>& col
     const data::Quantity::Kind kind = data::quantity_named(name, factory.observables)->kind;
     if (kind != data::Quantity::Kind::force && kind != data::Quantity::Kind::plate_force) continue;
     const ColumnGuess& guess = columns[csv.column(column)];
-    const bool said_force = std::ranges::any_of(answers.units, [&, &of = column](const auto& one) {
-      return (one.first == of || one.first == guess.title) && measures(one.second, "mN");
-    });
-    (guess.per_metre && !said_force ? tense : force) = &guess;
+    (guess.per_metre ? tense : force) = &guess;
   }
   if (tense == nullptr) return {};
   if (factory.specimen == Specimen::block)
