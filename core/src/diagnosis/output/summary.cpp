@@ -33,6 +33,11 @@ std::string joined_reasons(const Explanation& explanation) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
+std::string rivalry(const std::vector<std::string>& all) {
+  return fmt::format("{} {}", fmt::join(all, ", "),
+                     all.size() == 1 ? "explains the misfit" : "explain the misfit about equally well");
+}
+
 std::string verdict_line(const Diagnosis& d) {
   const Explanation& explanation = d.explanation;
   const Claim& claim = explanation.claim;
@@ -67,11 +72,9 @@ std::string verdict_line(const Diagnosis& d) {
                            fmt::join(claim.ambiguity_set, " and "));
       if (!explanation.reasons.empty() && explanation.reasons.front().kind == ReasonKind::several_lead)
         return "INDISTINGUISHABLE: " + joined_reasons(explanation);
-      return fmt::format(
-          "INDISTINGUISHABLE: {} {}{}{}", fmt::join(explanations(claim), ", "),
-          explanations(claim).size() == 1 ? "explains the misfit" : "explain the misfit about equally well",
-          explanation.unlisted || explanation.reasons.empty() ? "" : "; ",
-          explanation.unlisted ? "" : joined_reasons(explanation));
+      return "INDISTINGUISHABLE: " + rivalry(explanations(claim)) +
+             (explanation.unlisted || explanation.reasons.empty() ? "" : "; ") +
+             (explanation.unlisted ? "" : joined_reasons(explanation));
     case Verdict::suspect_data:
       return "SUSPECT DATA: " + joined_reasons(explanation);
     case Verdict::discovered:
