@@ -19,20 +19,20 @@ function pictures(run) {
       { name: "model", x: channel.x, y: [], colour: 0, breaks: channel.breaks, free: true }] }));
 }
 
-function modelPanel(name, run, file, catalogue, open) {
+function modelPanel(name, run, file, catalogue, keepAs) {
   const { document } = file, models = catalogue.models, type = document.models[run.model]?.type, about = models.find((one) => one.name === type);
   const list = choice(models.map((one) => [one.name, plain(one.name)]), type), place = panel("Model");
   const required = about?.options?.length ? ` · options: ${about.options.map((one) => one.name).join(", ")}` : "";
   list.addEventListener("change", () => attempt(place, async () => {
     const changed = structuredClone(document);
     setModel(changed, run.entry, list.value, list.value === "ogden" ? { terms: 2 } : {});
-    open(await save(name, file, changed));
+    await keepAs(changed);
   }));
   add(place, field("Constitutive model", list), about ? el("p", {}, about.doc) : "", about ? el("p", {}, el("small", {}, about.reference, required)) : "");
   return place;
 }
 
-function testsPanel(name, run, file, open) {
+function testsPanel(name, run, file, keepAs) {
   const { document } = file, own = document.runs[run.entry].tests, place = panel("Tests");
   if (own && !Array.isArray(own)) return add(place, el("p", {}, "This run has tests of its own, which are changed in the file: ", Object.keys(own).map(plain).join(", ")));
   const all = Object.keys(document.tests), used = new Set(own ?? all);
@@ -46,7 +46,7 @@ function testsPanel(name, run, file, open) {
     const changed = structuredClone(document);
     setTests(changed, run.entry, rows.filter((row) => row.on.checked).map((row) => row.test), new Set(rows.filter((row) => row.out.checked).map((row) => row.test)),
       new Map(rows.filter((row) => row.weight.value !== "" && Number(row.weight.value) !== (document.tests[row.test].weight ?? 1)).map((row) => [row.test, Number(row.weight.value)])));
-    open(await save(name, file, changed));
+    await keepAs(changed);
   }) }, "Use these tests"));
   return place;
 }
@@ -79,9 +79,15 @@ async function checked(place, name) {
 
 export async function materialPage(place, all, name) {
   const [file, catalogue] = await Promise.all([ask("document", { file: name }), ask("catalogue")]);
-  let gone = false;
-  const open = ({ file: saved }) => {
+  let gone = false, judged = null;
+  /** Saves, and shows what was saved. Nothing is asked of the file in between: it may have other parameters by then. */
+  const keepAs = async (changed) => {
     gone = true;
+    await judged;
+    const { file: saved } = await save(name, file, changed).catch((error) => {
+      gone = false;
+      throw error;
+    });
     if (saved !== name) notice(`${name} stays as it is; the change is in ${saved}`);
     if (saved === name) dispatchEvent(new HashChangeEvent("hashchange")); else location.hash = to("model", saved);
   };
@@ -106,34 +112,34 @@ export async function materialPage(place, all, name) {
       put(quality, el("span", {}, "objective ", objective), ...answer.quality.map((one, k) => one
         ? el("span", {}, plain(run.channels[k].test), " misses by ", el("strong", {}, percent(one.share)), ` of the range (RMSE ${number(one.rmse, 3)}${unit(run.channels[k].unit)})`) : ""));
     };
-    const follow = latest((values) => simulate({ file: name, run: run.label, values }), shown, (error) => failed.replaceChildren(problem(error.message)));
-    const judge = rested(async (values) => {
-      if (gone) return;
+    const follow = latest((values) => simulate({ file: name, run: chosen.label, values }), shown, (error) => failed.replaceChildren(problem(error.message)));
+    const judge = rested((values) => { if (!gone && run === chosen) judged = stability(values); });
+    const stability = async (values) => {
       try {
-        const said = await ask("judge", { file: name, run: run.label, values });
+        const said = await ask("judge", { file: name, run: chosen.label, values });
         objective.textContent = number(said.objective, 5);
         put(stable, el("span", { class: `tag ${said.stable === false ? "bad" : said.stable ? "good" : ""}` }, said.stable === false ? "unstable" : said.stable ? "stable" : "not judged"),
           el("details", {}, el("summary", {}, "Stability of the material"), el("ul", {}, said.sentences.map((line) => el("li", {}, line)))));
       } catch (error) {
         put(stable, el("small", {}, error.message));
       }
-    });
+    };
     const moved = (values) => { if (!gone) follow(values); judge(values); };
     const knobs = sliders(run.parameters, moved), saving = el("div");
     moved(knobs.values);
     const keep = el("button", { onclick: () => attempt(saving, async () => {
       const changed = structuredClone(file.document);
       setParameters(changed, run.entry, run.parameters, knobs.values);
-      open(await save(name, file, changed));
+      await keepAs(changed);
     }) }, "Keep as initial values and bounds");
     put(body, el("div", { class: "wide" },
-      el("div", { class: "sticky" }, modelPanel(name, run, file, catalogue, open),
+      el("div", { class: "sticky" }, modelPanel(name, run, file, catalogue, keepAs),
         panel("Parameters", fromResults(all, name, run, knobs), knobs.node, el("div", { class: "row" }, keep), saving,
           run.fixed.length ? el("p", {}, el("small", {}, "Held: ", run.fixed.map((one) => `${one.name} = ${number(one.value)}${unit(one.unit)}`).join(", "))) : "",
           el("p", {}, el("small", {}, "A shell simulates at the values that the file holds; keep those of the sliders first.")),
           shell(`tunica simulate ${quoted(name)} --model ${quoted(run.model)} -o predicted`))),
       el("div", {}, panel("Curve over the data", charts.map((one) => one.node), quality, stable, failed, el("div", { class: "row" }, el("a", { class: "button main", href: to("fit", name) }, "Next: fit"))),
-        testsPanel(name, run, file, open), readings, checks, text(name, file))));
+        testsPanel(name, run, file, keepAs), readings, checks, text(name, file))));
   }
   show(run);
   return () => (gone = true);
