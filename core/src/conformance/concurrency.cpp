@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <barrier>
-#include <chrono>
+#include <cerrno>
 #include <exception>
 #include <mutex>
 #include <numeric>
@@ -20,18 +20,24 @@
 namespace tunica::conformance {
 namespace {
 
-thread_local timespec awake_since{};
+// Of all threads that race; the handler of a signal reaches nothing else.
+std::atomic<std::uint64_t> ended_calls = 0;
+std::atomic<int> may_sleep = 0;
+thread_local bool has_slept = false;  // in the call that it makes: each call gets on
 
 void doze(int) {
-  // A thread that is woken late would find the next alarm waiting, and never get on: it works a while between two.
-  constexpr long while_ns = 100'000;
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  if ((now.tv_sec - awake_since.tv_sec) * 1'000'000'000 + now.tv_nsec - awake_since.tv_nsec < while_ns) return;
-  // The shortest sleep there is: another thread goes on meanwhile.
-  const timespec moment{0, 1};
-  ::nanosleep(&moment, nullptr);
-  ::clock_gettime(CLOCK_MONOTONIC, &awake_since);
+  if (has_slept) return;
+  // A thread sleeps in the middle of its call until others have ended calls meanwhile: on a busy machine a sleep alone
+  // may pass while strangers run. Half of the threads are awake; the bound lets go where these wait for one asleep.
+  if (--may_sleep >= 0) {
+    has_slept = true;
+    const int error = errno;
+    const std::uint64_t enough = ended_calls + 2;
+    const timespec moment{0, 1};  // the shortest sleep there is
+    for (int sleeps = 0; sleeps < 100 && ended_calls < enough; ++sleeps) ::nanosleep(&moment, nullptr);
+    errno = error;
+  }
+  ++may_sleep;
 }
 
 /// As long as it lives, threads that admit the alarm are put to sleep every 70 µs, wherever they are in what they do.
@@ -74,12 +80,20 @@ class Interruptions {
 Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agrees, double seconds) {
   const std::size_t threads = std::max<std::size_t>(8, 2 * std::thread::hardware_concurrency());
   std::atomic<bool> over = false;
-  std::atomic<std::uint64_t> calls = 0;
   std::mutex guard;
   Race race;
   race.threads = threads;
+  ended_calls = 0;
+  may_sleep = static_cast<int>(threads / 2);
   std::exception_ptr thrown;
   const Interruptions interruptions;
+  // Time of the processors, so that the race is no shorter on a machine that is busy with other work.
+  const auto worked = [] {
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  };
+  const double enough = worked() + seconds * std::max(1u, std::thread::hardware_concurrency());
   std::barrier begin(static_cast<std::ptrdiff_t>(threads));
   const auto run = [&](std::size_t thread) {
     std::vector<std::size_t> order(count);
@@ -88,19 +102,20 @@ Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agr
     std::shuffle(order.begin(), order.end(), engine);
     begin.arrive_and_wait();
     interruptions.admit();
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     try {
       do {
         for (const std::size_t input : order) {
           if (over) return;
-          ++calls;
-          if (agrees(input)) continue;
+          has_slept = false;
+          const bool agreed = agrees(input);
+          ++ended_calls;
+          if (agreed) continue;
           const std::lock_guard lock(guard);
           over = race.lost = true;
           race.input = input;
           return;
         }
-      } while (std::chrono::steady_clock::now() < end);
+      } while (worked() < enough);
       Interruptions::stop();  // the last ones are not kept from their end
     } catch (...) {
       const std::lock_guard lock(guard);
@@ -112,7 +127,7 @@ Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agr
     std::vector<std::jthread> all;
     for (std::size_t thread = 0; thread < threads; ++thread) all.emplace_back(run, thread);
   }
-  race.calls = calls;
+  race.calls = ended_calls;
   if (thrown && !race.lost) std::rethrow_exception(thrown);
   return race;
 }

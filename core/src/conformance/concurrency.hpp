@@ -16,9 +16,9 @@ struct Race {
 };
 
 /// Threads that go through the inputs 0 … count − 1 over and over, each in an order of its own, until one of
-/// `agrees(input)` is false, but for at least `seconds` and a round each. More threads than processors, and an
-/// alarm that puts one of them to sleep every 70 µs wherever it is: so calls are interleaved on one processor too. What
-/// a call throws is thrown here.
-Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agrees, double seconds = 0.4);
+/// `agrees(input)` is false, but for at least a round each and `seconds` of every processor. There are more threads
+/// than processors. An alarm puts one of them to sleep every 70 µs, wherever it is, until others have made calls. So
+/// calls are interleaved on one processor too, and on a busy one. What a call throws is thrown here.
+Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agrees, double seconds = 1);
 
 }  // namespace tunica::conformance
