@@ -16,6 +16,7 @@
 #include <signal.h>
 #include <sys/time.h>
 #include <time.h>
+#include <ucontext.h>
 
 namespace tunica::conformance {
 namespace {
@@ -23,19 +24,18 @@ namespace {
 // Of all threads that race; the handler of a signal reaches nothing else.
 std::atomic<std::uint64_t> ended_calls = 0;
 std::atomic<int> may_sleep = 0;
-thread_local bool has_slept = false;  // in the call that it makes: each call gets on
 
-void doze(int) {
-  if (has_slept) return;
+void doze(int, siginfo_t*, void* context) {
   // A thread sleeps in the middle of its call until others have ended calls meanwhile: on a busy machine a sleep alone
   // may pass while strangers run. Half of the threads are awake; the bound lets go where these wait for one asleep.
   if (--may_sleep >= 0) {
-    has_slept = true;
     const int error = errno;
     const std::uint64_t enough = ended_calls + 2;
     const timespec moment{0, 1};  // the shortest sleep there is
     for (int sleeps = 0; sleeps < 100 && ended_calls < enough; ++sleeps) ::nanosleep(&moment, nullptr);
     errno = error;
+    // It sleeps once a call, so that it gets on: until it admits the alarm again, others have it.
+    ::sigaddset(&static_cast<ucontext_t*>(context)->uc_sigmask, SIGALRM);
   }
   ++may_sleep;
 }
@@ -48,8 +48,8 @@ class Interruptions {
     ::sigaddset(&alarm_, SIGALRM);
     ::pthread_sigmask(SIG_BLOCK, &alarm_, &mask_);
     struct sigaction action {};
-    action.sa_handler = doze;
-    action.sa_flags = SA_RESTART;
+    action.sa_sigaction = doze;
+    action.sa_flags = SA_RESTART | SA_SIGINFO;
     ::sigaction(SIGALRM, &action, &before_);
     set(70);
   }
@@ -57,19 +57,25 @@ class Interruptions {
   Interruptions& operator=(const Interruptions&) = delete;
   ~Interruptions() {
     set(0);
-    // One that is pending still would be for whoever has the signal afterwards.
-    const timespec at_once{0, 0};
-    while (::sigtimedwait(&alarm_, nullptr, &at_once) > 0) continue;
+    forget();  // one that is pending still would be for whoever has the signal afterwards
     ::sigaction(SIGALRM, &before_, nullptr);
     ::pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
   }
-  void admit() const { ::pthread_sigmask(SIG_UNBLOCK, &alarm_, nullptr); }
+  /// From now on. An alarm that waited would come at once, and always where a call begins.
+  void admit() const {
+    forget();
+    ::pthread_sigmask(SIG_UNBLOCK, &alarm_, nullptr);
+  }
   static void stop() { set(0); }
 
  private:
   static void set(int microseconds) {
     const itimerval every{{0, microseconds}, {0, microseconds}};
     ::setitimer(ITIMER_REAL, &every, nullptr);
+  }
+  void forget() const {
+    const timespec at_once{0, 0};
+    while (::sigtimedwait(&alarm_, nullptr, &at_once) > 0) continue;
   }
   sigset_t alarm_{}, mask_{};
   struct sigaction before_ {};
@@ -101,12 +107,11 @@ Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agr
     std::mt19937 engine(static_cast<std::uint32_t>(thread));
     std::shuffle(order.begin(), order.end(), engine);
     begin.arrive_and_wait();
-    interruptions.admit();
     try {
       do {
         for (const std::size_t input : order) {
           if (over) return;
-          has_slept = false;
+          interruptions.admit();
           const bool agreed = agrees(input);
           ++ended_calls;
           if (agreed) continue;
