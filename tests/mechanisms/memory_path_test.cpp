@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include "support/strip.hpp"
 #include "support/tensors_only.hpp"
 #include "support/tube.hpp"
+#include "tunica/energy_scaled_model.hpp"
 #include "tunica/maxwell_model.hpp"
 
 // Models with memory in principal axes: against the same model row by row on tensors, and against differences.
@@ -142,6 +144,48 @@ TEST(MaxwellPath, IsNotThatOfAModelThatRemembersMore) {
   const auto softened = wrapped("stress_softening", wrapped("viscoelasticity", model("gho")));
   const auto* const outside = dynamic_cast<const MaxwellModel*>(softened.get());
   EXPECT_FALSE(outside != nullptr && outside->add_branches(found));
+}
+
+std::unique_ptr<Model> scaled(const std::string& id, const std::string& base, const std::string& law) {
+  const auto& entry = testing::catalogue().mechanisms().at(id);
+  Options options = testing::defaults(entry.factory.options);
+  if (!law.empty()) options.set("law", law);
+  return plugins::wrap(entry, model(base), options);
+}
+
+// A factor on the elastic stress leaves lateral equilibrium alone, and all rows are multiplied at once.
+TEST(ScaledPath, PredictsWhatTheSamePathRowByRowDoes) {
+  const std::vector<double> gho{18.668, 0.1367, 24.905, 0.2912, 46.44};
+  for (const auto& base : {std::pair<std::string, std::vector<double>>{"gho", gho}, {"yeoh", {30, 4, 0.5}}})
+    for (const auto& [id, own, law] :
+         std::vector<std::tuple<std::string, std::vector<double>, std::string>>{{"stress_softening", {0.4, 0.6}, ""},
+                                                                                {"damage", {0.5, 6}, "discontinuous"},
+                                                                                {"damage", {1, 6, 2.5}, "failure"}})
+      for (const char* direction : {"circumferential", "axial"}) {
+        const auto made = scaled(id, base.first, law);
+        const testing::RowByRow slowly(scaled(id, base.first, law));
+        std::vector<double> p = base.second;
+        p.insert(p.end(), own.begin(), own.end());
+        const auto* const factors = dynamic_cast<const EnergyScaledModel*>(made.get());
+        ASSERT_NE(factors, nullptr) << "through the guard";
+        ASSERT_TRUE(factors->scale_path({p, {}, {}}, {})) << id;
+        const testing::StripSetup setup{.direction = direction, .channels = {"stress", "transverse_stretch"}};
+        const auto test = testing::make_strip(cycles(), setup);
+        const Answer columns = ask(*test, *made, p, true), rows = ask(*test, slowly, p, true);
+        EXPECT_LE(testing::relative_difference(columns.values, rows.values), 1e-12) << base.first << id << law;
+        EXPECT_LE(testing::relative_difference(columns.jacobian, rows.jacobian), 1e-11) << base.first << id << law;
+        EXPECT_LE(testing::relative_difference(ask(*test, *made, p, false).values, rows.values), 1e-11);
+      }
+}
+
+TEST(ScaledPath, IsNotThatOfAModelThatRemembersMore) {
+  for (const auto& made : {wrapped("damage", wrapped("viscoelasticity", model("gho"))),
+                           wrapped("stress_softening", wrapped("damage", model("gho"))),
+                           wrapped("viscoelasticity", wrapped("damage", model("gho")))}) {
+    const auto* const factors = dynamic_cast<const EnergyScaledModel*>(made.get());
+    const std::vector<double> p(made->describe().parameters.size(), 0.5);
+    EXPECT_FALSE(factors != nullptr && factors->scale_path({p, {}, {}}, {}));
+  }
 }
 
 class MemoryPath : public ::testing::TestWithParam<bool> {};

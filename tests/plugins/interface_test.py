@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-headers = ["card_energy.hpp", "energy_part.hpp", "error.hpp", "maxwell_model.hpp", "mechanism.hpp", "model.hpp", "optimizer.hpp",
+headers = ["card_energy.hpp", "energy_part.hpp", "energy_scaled_model.hpp", "error.hpp", "maxwell_model.hpp", "mechanism.hpp", "model.hpp", "optimizer.hpp",
            "options.hpp", "parameter.hpp", "plugin.hpp", "status.hpp", "strip_path.hpp", "test.hpp"]
 include, record = map(pathlib.Path, sys.argv[1:3])
 

@@ -227,6 +227,11 @@ bool GuardedModel::add_branches(std::vector<Branch>& found) const {
   return maxwell != nullptr && guarded(plugin_, "add_branches", [&] { return maxwell->add_branches(found); });
 }
 
+bool GuardedModel::scale_path(const ScaledPath& path, const Factors& factors) const {
+  const auto* const scaled = dynamic_cast<const EnergyScaledModel*>(model_.get());
+  return scaled != nullptr && guarded(plugin_, "scale_path", [&] { return scaled->scale_path(path, factors); });
+}
+
 bool GuardedModel::remembers(std::span<const double> parameters) const {
   return guarded(plugin_, "remembers", [&] { return model_->remembers(parameters); });
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plugins/overrun.hpp"
+#include "tunica/energy_scaled_model.hpp"
 #include "tunica/maxwell_model.hpp"
 #include "tunica/model.hpp"
 
@@ -20,7 +21,7 @@ const Model*& last_failed_model();
 /// A model of a plugin that the host need not trust. An exception, an output that is unwritten or overrun, and a call
 /// that has ended a process before are all a `failed` status which names the plugin. Costs a call some 20 ns: the
 /// record of calls, and marks in the outputs.
-class GuardedModel final : public Model, public MaxwellModel {
+class GuardedModel final : public Model, public MaxwellModel, public EnergyScaledModel {
  public:
   GuardedModel(std::unique_ptr<Model> model, std::string plugin);
   ~GuardedModel() override;
@@ -39,6 +40,8 @@ class GuardedModel final : public Model, public MaxwellModel {
   void remember(const AxisStep& step) const override;
   /// False of a model that is no MaxwellModel.
   bool add_branches(std::vector<Branch>& found) const override;
+  /// False of a model that is no EnergyScaledModel.
+  bool scale_path(const ScaledPath& path, const Factors& factors) const override;
 
   [[nodiscard]] const std::string& plugin() const { return plugin_; }
   /// The model without its guard, for a mechanism that goes around it.

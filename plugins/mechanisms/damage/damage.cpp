@@ -56,6 +56,33 @@ class DamagedModel final : public ScaledByEnergy {
     return {law.eta(largest), W > before ? law.slope(largest) : 0};
   }
 
+  /// dη = −(1 − e^{−x}) dd − d e^{−x} dx,  dx = x (m dWmax/Wmax − m dw/w + ln(Wmax/w) dm): as long as Wmax stays, so
+  /// does all of it.
+  void scale_rows(std::span<const double> own, const ScaledPath& path, const Factors& out) const override {
+    const std::size_t n = path.energy.size();
+    const Law law(own);
+    double largest = 0, x = 0, eta = law.eta(0), left = 1;
+    std::size_t row = n;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (const double W = path.energy[i]; W > largest || std::isnan(W)) {
+        largest = W;
+        row = i;
+        x = law.x(largest);
+        left = std::exp(-x);
+        eta = 1 + law.d * std::expm1(-x);
+      }
+      const double by_x = -law.d * left;
+      out.largest[i] = row;
+      out.eta[i] = eta;
+      out.by_energy[i] = 0;
+      out.by_largest[i] = row == n ? 0 : by_x * law.m * x / largest;
+      if (out.by_own.empty()) continue;
+      out.by_own[i] = std::expm1(-x);
+      out.by_own[n + i] = -by_x * x * law.m / law.w;
+      if (own.size() > 2) out.by_own[2 * n + i] = x == 0 ? 0 : by_x * x * std::log(largest / law.w);
+    }
+  }
+
   /// g → η g with all derivatives: dη = −(1 − e^{−x}) dd − d e^{−x} dx, dx = x (m dWmax/Wmax − m dw/w + ln(Wmax/w) dm).
   void remember_step(const AxisStep& step) const override {
     const std::size_t n = step.width;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tunica/energy_scaled_model.hpp"
 #include "tunica/models/history_model.hpp"
 
 namespace tunica {
@@ -18,7 +19,14 @@ namespace tunica {
 ///
 /// State: Wmax; in principal axes W at rest and Wmax. The energy it returns is that of the base, with which Wmax is
 /// compared.
-class ScaledByEnergy : public HistoryModel {
+class ScaledByEnergy : public HistoryModel, public EnergyScaledModel {
+ public:
+  bool scale_path(const ScaledPath& path, const Factors& factors) const final {
+    if (base().describe().history_size > 0) return false;
+    scale_rows(path.parameters.subspan(base().describe().parameters.size()), path, factors);
+    return true;
+  }
+
  protected:
   ScaledByEnergy(std::string id, std::unique_ptr<Model> base, const std::vector<Parameter>& own)
       : HistoryModel(std::move(id), std::move(base), own, 1, 2) {}
@@ -29,6 +37,8 @@ class ScaledByEnergy : public HistoryModel {
   };
   /// At energy W, where that of earlier points was at most `before` and the largest principal-axis stress is `stress`.
   [[nodiscard]] virtual Factor factor(std::span<const double> own, double W, double before, double stress) const = 0;
+  /// As EnergyScaledModel::scale_path(), with the mechanism's own parameters.
+  virtual void scale_rows(std::span<const double> own, const ScaledPath& path, const Factors& out) const = 0;
   /// Whether η can differ from 1 in a step at all.
   [[nodiscard]] virtual bool scales(const Step& step) const = 0;
 

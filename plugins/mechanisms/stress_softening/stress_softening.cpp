@@ -48,6 +48,37 @@ class SoftenedModel final : public ScaledByEnergy {
     return {1 - s * std::erf(x), s * std::numbers::inv_sqrtpi * 2 * std::exp(-x * x) / width};
   }
 
+  /// With x = (Wmax − W)/(m Wmax) and e = 2/√π e^{−x²}:  dη = −erf(x) ds − s e dx,
+  ///   dx = (dWmax − dW)/(m Wmax) − x (dWmax/Wmax + dm/m).
+  void scale_rows(std::span<const double> own, const ScaledPath& path, const Factors& out) const override {
+    const std::size_t n = path.energy.size();
+    const double s = own[0], m = own[1];
+    double largest = 0;
+    std::size_t row = n;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double W = path.energy[i];
+      const bool below = i > 0 && W < largest;
+      if (!below && (W > 0 || std::isnan(W))) {
+        largest = W;
+        row = i;
+      }
+      out.largest[i] = row;
+      double lost = 0, by_x = 0, x = 0, width = 1;
+      if (below && largest > unloaded * path.stress[i]) {
+        width = m * largest;
+        x = (largest - W) / width;
+        lost = std::erf(x);
+        by_x = -s * 2 * std::numbers::inv_sqrtpi * std::exp(-x * x);
+      }
+      out.eta[i] = 1 - s * lost;
+      out.by_energy[i] = -by_x / width;
+      out.by_largest[i] = by_x == 0 ? 0 : by_x * (1 / width - x / largest);
+      if (out.by_own.empty()) continue;
+      out.by_own[i] = -lost;
+      out.by_own[n + i] = -by_x * x / m;
+    }
+  }
+
   void remember_step(const AxisStep& step) const override {
     const std::size_t n = step.width;
     double* const at_rest = step.state;

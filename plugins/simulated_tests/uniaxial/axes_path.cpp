@@ -20,11 +20,6 @@ Scratch& thread_scratch() {
   return instance;
 }
 
-std::span<double> room(std::vector<double>& values, std::size_t n) {
-  if (values.size() < n) values.resize(n);
-  return {values.data(), n};
-}
-
 Status overflow(const Strip& strip, std::span<const double> stretch, std::size_t row) {
   return Status::failed("uniaxial: the stress overflows at " + row_name(strip, stretch, row));
 }

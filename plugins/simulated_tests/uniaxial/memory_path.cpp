@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "maxwell_path.hpp"
+#include "scaled_path.hpp"
 #include "symmetric_memory.hpp"
 #include "tunica/detail/axis_path.hpp"
 #include "tunica/detail/solve_strip.hpp"
@@ -164,6 +165,11 @@ bool follow(const Strip& strip, const TestInput& input, std::span<const double> 
                                         parameters ? rows.stress_dp : std::span<double>(), status)) {
     for (std::size_t i = 0; i < n; ++i) m.u[i] = 1 / stretch[i];
     std::fill(rows.y_dp.begin(), rows.y_dp.end(), 0.0);
+    return status.ok();
+  }
+  if (const auto* const scaled = dynamic_cast<const EnergyScaledModel*>(&input.model);
+      scaled != nullptr && scaled->scale_path({input.model_parameters, {}, {}}, {})) {
+    status = scale_elastic(strip, input, stretch, start, *scaled, m.elastic, rows, parameters);
     return status.ok();
   }
   // Begun from the elastic strip.

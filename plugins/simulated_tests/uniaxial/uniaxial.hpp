@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,12 @@ struct RowSolution {
 double channel_value(Channel channel, Measure measure, const RowSolution& row);
 double channel_derivative(Channel channel, Measure measure, const RowSolution& row, double stress_p, double y_p);
 double channel_by_stretch(Channel channel, Measure measure, const RowSolution& row);
+
+/// Room for n numbers in scratch that never shrinks.
+inline std::span<double> room(std::vector<double>& values, std::size_t n) {
+  if (values.size() < n) values.resize(n);
+  return {values.data(), n};
+}
 
 /// "row 34 (stretch 1.87)"
 std::string row_name(const Strip& strip, std::span<const double> stretch, std::size_t row);
