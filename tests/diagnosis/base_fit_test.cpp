@@ -213,16 +213,31 @@ TEST(BaseFitStarts, DoWithoutAnOptimizerOfStages) {
 
 /// Flat valleys of all depths, of a few that cannot be entered, and the deepest in the middle of the others.
 TEST(BaseFitKept, IsTheBestThatCouldBeEvaluated) {
-  BaseFitBed unevaluable(not_evaluable, 100);
+  constexpr double sd = 10;  // all of them are noise
+  BaseFitBed unevaluable(not_evaluable, 100, sd);
   const auto depth = [](double a) { return 1 + std::abs(std::sin(40 * a)); };
   const auto open = [](double a) { return std::fmod(a, 2) < 1.2; };
-  BaseFitBed bed([&](double a) { return open(a) ? std::optional(StressAt{depth(a), 0}) : std::nullopt; }, 100);
+  BaseFitBed bed([&](double a) { return open(a) ? std::optional(StressAt{depth(a), 0}) : std::nullopt; }, 100, sd);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     unevaluable.request.seed = bed.request.seed = seed;
     double best = 1e9;
     for (const double start : unevaluable.starts())
-      if (open(start)) best = std::min(best, 2 * depth(start) * depth(start));
+      if (open(start)) best = std::min(best, 2 * depth(start) * depth(start) / (sd * sd));
     EXPECT_NEAR(bed.fit().fit.chi2, best, 1e-9) << seed;
+  }
+}
+
+/// Ten flat valleys, whose |r|² are 1.5 apart: a poorer one is as small as noise, and its misfit would look like a
+/// cause.
+TEST(BaseFitKept, IsReachedByTwoStartsAmongNoiseToo) {
+  const auto depth = [](double a) { return std::sqrt(0.01 + 0.75 * ((7 * static_cast<int>(a / 10) + 3) % 10)); };
+  BaseFitBed bed([&](double a) { return StressAt{depth(a), 0}; }, 99.9);
+  for (bed.request.seed = 1; bed.request.seed <= 20; ++bed.request.seed) {
+    const double best = depth(bed.fit().fit.free[0]);
+    std::ranges::sort(bed.asked);
+    const auto twice = std::ranges::unique(bed.asked);
+    bed.asked.erase(twice.begin(), twice.end());
+    EXPECT_GE(std::ranges::count_if(bed.asked, [&](double a) { return depth(a) == best; }), 2) << bed.request.seed;
   }
 }
 

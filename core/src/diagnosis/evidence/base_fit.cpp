@@ -2,6 +2,7 @@
 #include "diagnosis/evidence/base_fit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -126,6 +127,7 @@ double step_promises(const Fit& fit) { return fit.chi2 - Projection(interior(fit
 BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
   constexpr std::size_t batches = 4;
   constexpr double far = 0.01, no_fit = 0.5, matters = 10;  // of |r|², and more than noise in so many rows
+  constexpr double same = 1;                                // of |r|²: minima that lie closer are one
   const assembly::Assembly& assembly = *prepared.base;
   const bool quick = inquiry.request.quick;
   const std::vector<Variable> variables = all_variables(assembly);
@@ -158,12 +160,14 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
     return step_promises(fit) > std::max({share * fit.chi2, matters, static_cast<double>(fit.residuals.size())});
   };
   // The lowest minimum counts as found if two starts have reached it. The misfit of a poorer one would look like a
-  // cause.
-  const double noise_alone = 2 * static_cast<double>(base.fit.residuals.size());
+  // cause, and hides among noise where it is as small.
+  // A misfit that is no noise is believed after a batch more: two starts may have reached a poorer minimum.
+  const double rows = static_cast<double>(base.fit.residuals.size()), noise_alone = rows + 2 * std::sqrt(2 * rows);
   const auto is_open = [&](const std::vector<Fit>& ended) {
     const auto there = std::ranges::count_if(
-        ended, [&](const Fit& fit) { return fit.status.ok() && fit.chi2 <= (1 + far) * base.fit.chi2 + matters; });
-    return !assembly.layout().has_costly_tests && there < 2 && base.fit.chi2 > noise_alone;
+        ended, [&](const Fit& fit) { return fit.status.ok() && fit.chi2 <= (1 + far) * base.fit.chi2 + same; });
+    const bool doubtful = ended.size() == starts.size() && base.fit.chi2 > noise_alone;
+    return !assembly.layout().has_costly_tests && (there < 2 || doubtful);
   };
   std::vector<Fit> ended = fits;
   for (std::size_t batch = 0;
