@@ -30,6 +30,20 @@ Past past(const char* text, const DataRequest& request = {}, const Mapping& colu
   return past_of(read_strip(text, columns, request), strip_observables());
 }
 
+TEST(LoadingPath, BeginsUnderLoadWhereTheClockRanBefore) {
+  const Mapping timed = {{"stretch", "stretch"}, {"stress", "stress"}, {"time", "time"}};
+  const auto start = [&](const char* text) { return loaded_start_of(read_strip(text, timed), strip_observables()); };
+  const auto found = start("stretch,stress [kPa],time [min]\n1.4,9,2\n1.4,8,3\n1.4,7,9\n");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->abscissa, "stretch");
+  EXPECT_EQ(found->value, 1.4);
+  EXPECT_EQ(found->time, 120);
+  EXPECT_FALSE(start("stretch,stress [kPa],time [s]\n1.4,9,0\n1.4,8,3\n1.4,7,9\n")) << "a jump";
+  EXPECT_FALSE(start("stretch,stress [kPa],time [s]\n1.01,1,2\n1.4,9,3\n1.4,8,9\n")) << "hardly loaded";
+  EXPECT_FALSE(loaded_start_of(read_strip("stretch,stress [kPa]\n1.4,9\n1.4,8\n", {}), strip_observables()))
+      << "no clock";
+}
+
 TEST(LoadingPath, IsKnownWhereTheFileOrTimeSaysIt) {
   EXPECT_EQ(past(loop), Past::order_unknown);
   EXPECT_EQ(past(loop, with(Order::loading)), Past::known);

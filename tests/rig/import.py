@@ -185,6 +185,12 @@ _, said = imported(held, "--test", "loading_segments", "--area", "6 mm2", code=2
 assert "--set segments=STRETCH" in said, said
 _, said = imported(held, "--test", "loading_segments", "--area", "6 mm2", "--set", "segments=true", code=2)
 assert "expected the stretch of a hold as a number" in said, said
+# A clock that ran before the jump: a ramp of so long would be another material.
+late = table("late.csv", ["Time [s],Load [N]", "12.3,1.2", "13,1.0", "22.3,0.9", "612.3,0.85"])
+experiment, said = imported(late, "--test", "loading_segments", "--area", "6 mm2", "--set", "segments=1.3")
+assert experiment["tests"]["late"]["segments"] == [{"ramp": {"stretch": 1}, "duration": "12.3 s"}, {"ramp": {"stretch": 1.3}, "duration": 0}, {"hold": "600 s"}], experiment
+assert "the clock begins before the first row, at 12.3 s" in words(said), said
+rig.tunica(program, "check", folder / "late.json")
 creep = table("creep.csv", ["Time [s],Load [N],Extension [mm]", "0,1,0.5", "10,1,0.8", "100,1,1.1"])
 experiment, said = imported(creep, "--test", "creep", "--area", "6 mm2", "--gauge-length", "20 mm")
 assert experiment["tests"]["creep"]["data"]["columns"] == {"time": "Time", "force": "Load", "displacement": "Extension"}, experiment

@@ -72,6 +72,23 @@ std::string words_of(const std::vector<TestPast>& pasts) {
   return words;
 }
 
+std::vector<std::string> ramp_words(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+                                    const plugins::Catalogue& catalogue, bool any) {
+  std::vector<std::string> words;
+  for (const std::string& name : run.tests) {
+    const experiment::TestEntry& entry = experiment.test(name);
+    const auto& observables = catalogue.tests().find(entry.type)->second.factory.observables;
+    const auto start = data::loaded_start_of(data::read_dataset(entry.data, observables), observables);
+    if (!start || !(any || has_memory(experiment, entry, run, catalogue))) continue;
+    words.push_back(
+        fmt::format("something in the model has memory, and '{}' begins under load, at {} = {:.4g} after {:.4g} s: a "
+                    "straight ramp from rest at time 0 is assumed before. Where the load came at once, let the clock "
+                    "begin there, so that the first row is at time 0. Where it came otherwise, record the loading too",
+                    name, start->abscissa, start->value, start->time));
+  }
+  return words;
+}
+
 std::string assumption_words(const std::vector<TestPast>& pasts) {
   if (pasts.empty()) return {};
   return fmt::format("something in the model has memory, and the rows are taken for the whole loading path: {}",

@@ -87,6 +87,16 @@ Past past_of(const Dataset& dataset, const std::vector<Observable>& observables)
   return Past::known;
 }
 
+std::optional<LoadedStart> loaded_start_of(const Dataset& dataset, const std::vector<Observable>& observables) {
+  if (dataset.time.empty() || !(dataset.time.front() > 0)) return std::nullopt;
+  for (const auto& [name, path] : dataset.abscissae) {
+    const Observable* const observable = observable_of(name, observables);
+    if (observable != nullptr && !path.empty() && starts_far(distances(path, rest_of(*observable))))
+      return LoadedStart{name, path.front(), dataset.time.front()};
+  }
+  return std::nullopt;
+}
+
 void sort_rows(Dataset& dataset) {
   if (dataset.abscissae.empty() || runs_to_and_fro(dataset.abscissae.front().second)) return;
   std::vector<std::pair<std::size_t, const std::vector<double>*>> keys;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,16 @@ enum class Past {
 /// Far from rest is more than half of the largest distance; the rest of a stretch is 1, of a pressure 0. Unloading is
 /// a return by more than a tenth of that distance before any rise by as much.
 Past past_of(const Dataset& dataset, const std::vector<Observable>& observables);
+
+/// A path that is under load in its first row, at a time that is not that of the unloaded state.
+struct LoadedStart {
+  std::string abscissa;  ///< "stretch"
+  double value, time;    ///< of the first row, in base units
+};
+
+/// Where a clock is read, and the first row lies farther from rest than half of the largest distance, after time 0.
+/// Models with memory take a straight ramp from rest at time 0 for what came before, and nothing in the rows tells.
+std::optional<LoadedStart> loaded_start_of(const Dataset& dataset, const std::vector<Observable>& observables);
 
 /// Rows in an order that is theirs whatever the order in the file: by their abscissae, those with few different values
 /// first, then by what was measured. `file_rows` says which row of the file each is. Not without an abscissa, and not

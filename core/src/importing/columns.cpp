@@ -267,7 +267,9 @@ std::vector<ColumnGuess> guess_columns(const data::Csv& csv) {
       numbers += number ? 1 : 0;
       if (number && cell != "NaN" && cell != "nan") {
         try {
-          guess.largest = std::max(guess.largest, std::abs(csv.number(row, k, decimal)));
+          const double value = csv.number(row, k, decimal);
+          guess.largest = std::max(guess.largest, std::abs(value));
+          if (guess.begins.size() < 2) guess.begins.push_back(value);
         } catch (const InputError&) {  // infinity, or the other decimal mark: the reader says so
         }
       }

@@ -36,6 +36,7 @@ struct ColumnGuess {
   bool numeric = false;             ///< nearly every cell is a number
   int rank = 0;                     ///< among columns of one quantity the least is taken
   double largest = 0;               ///< of the numbers, without sign
+  std::vector<double> begins;       ///< the first two numbers
   std::size_t filled = 0;           ///< cells that are not empty
   std::size_t different = 0;        ///< values, counted to 50
   std::vector<std::string> values;  ///< of a column that is not numeric: the different ones, at most 50

@@ -77,19 +77,31 @@ void add_tube_options(Json& entry, const TestFactory& factory, const Answers& an
         ask({"Outer radius of the unloaded tube, with its unit", "--set outer_radius=LENGTH", "2.3 mm", true});
 }
 
-void add_hold(Json& entry, double last, const std::string& unit, const Ask& ask) {
+std::string add_hold(Json& entry, const ColumnGuess& time, const Ask& ask) {
   if (!entry.contains("segments"))
     entry["segments"] =
         Json::parse(ask({"Stretch at which the specimen is held from the beginning; 1 = the unloaded length",
                          "--set segments=STRETCH", "1.5"}),
                     nullptr, false);
   const Json given = entry["segments"];
-  if (given.is_array()) return;
+  if (given.is_array()) return {};
   if (!given.is_number())
     throw InputError(
         "--set segments: expected the stretch of a hold as a number, or a list of segments as JSON. Correct it");
-  const Json hold = unit.empty() ? Json(last) : Json(fmt::format("{:g} {}", last, unit));
-  entry["segments"] = Json::array({{{"ramp", {{"stretch", given}}}, {"duration", 0}}, {{"hold", hold}}});
+  const auto lasting = [&time](double number) {
+    return time.unit.empty() ? Json(number) : Json(fmt::format("{:g} {}", number, time.unit));
+  };
+  const bool late = time.begins.size() == 2 && time.begins[0] > time.begins[1] - time.begins[0];
+  const double before = late ? time.begins[0] : 0;
+  Json segments =
+      Json::array({{{"ramp", {{"stretch", given}}}, {"duration", 0}}, {{"hold", lasting(time.largest - before)}}});
+  if (late) segments.insert(segments.begin(), {{"ramp", {{"stretch", 1}}}, {"duration", lasting(before)}});
+  entry["segments"] = std::move(segments);
+  if (!late) return {};
+  return fmt::format(
+      "the clock begins before the first row, at {:g}{}: the specimen is taken to rest until then, and to be stretched "
+      "at once. Say \"segments\" where it was not so",
+      before, time.unit.empty() ? "" : " " + time.unit);
 }
 
 }  // namespace tunica::importing

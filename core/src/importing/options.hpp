@@ -4,6 +4,7 @@
 #include <string>
 
 #include "data/rig_request.hpp"
+#include "importing/columns.hpp"
 #include "importing/proposal.hpp"
 #include "tunica/test.hpp"
 
@@ -21,8 +22,9 @@ void add_layout(Json& data, const Answers& answers);
 void add_tube_options(Json& entry, const TestFactory& factory, const Answers& answers, bool stretch_in_column,
                       const Ask& ask);
 
-/// The loading of a record of time alone: held at one stretch from its beginning to its end, `last` seconds or what its
-/// unit is. The stretch is asked, unless "segments" are given; a number there is the stretch.
-void add_hold(Json& entry, double last, const std::string& unit, const Ask& ask);
+/// The loading of a record of time alone: held at one stretch from its beginning to its end. Where the clock has begun
+/// before, more than a step between rows, the specimen rests until the first row, and a sentence says so; empty = it
+/// has not. The stretch is asked, unless "segments" are given; a number there is the stretch.
+std::string add_hold(Json& entry, const ColumnGuess& time, const Ask& ask);
 
 }  // namespace tunica::importing

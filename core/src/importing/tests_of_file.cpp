@@ -367,7 +367,7 @@ class File {
     if (states_its_loading)
       for (const ColumnGuess& column : columns_)
         if (column.quantity == "time") {
-          add_hold(entry, column.largest, column.unit, ask_);
+          if (const std::string assumed = add_hold(entry, column, ask_); !assumed.empty()) note("{}", assumed);
           break;
         }
     if (factory_.specimen == Specimen::tube) add_tube_options(entry, factory_, answers_, stretched, ask_);

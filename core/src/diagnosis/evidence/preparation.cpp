@@ -108,6 +108,8 @@ Ordered with_orders(const Inquiry& inquiry, experiment::Experiment experiment, c
   }
   std::vector<Warning> warnings;
   if (!assumed.empty()) warnings.push_back({WarningKind::order_assumed, assembly::assumption_words(assumed)});
+  for (std::string& words : assembly::ramp_words(experiment, run, inquiry.catalogue, asked))
+    warnings.push_back({WarningKind::order_assumed, std::move(words)});
   return {std::move(experiment), std::move(warnings)};
 }
 
