@@ -191,6 +191,16 @@ experiment, said = imported(late, "--test", "loading_segments", "--area", "6 mm2
 assert experiment["tests"]["late"]["segments"] == [{"ramp": {"stretch": 1}, "duration": "12.3 s"}, {"ramp": {"stretch": 1.3}, "duration": 0}, {"hold": "600 s"}], experiment
 assert "the clock begins before the first row, at 12.3 s" in words(said), said
 rig.tunica(program, "check", folder / "late.json")
+_, said = imported(held, "--area", "6 mm2", code=2)
+assert "--test loading_segments --set segments=STRETCH" in said, said
+# Oscillations, under the names of the quantities and under their letters.
+for titles in ("Frequenz [Hz],E' [kPa],E'' [kPa]", "Frequency [Hz],Storage modulus [kPa],Loss modulus [kPa]"):
+    sweep = table("sweep.csv", [titles, "0.1,90,9", "1,100,12", "10,115,14"])
+    experiment, said = imported(sweep, "--test", "dynamic_mechanical")
+    assert list(experiment["tests"]["sweep"]["data"]["columns"]) == ["frequency", "storage_modulus", "loss_modulus"], experiment
+    rig.tunica(program, "check", folder / "sweep.json")
+_, said = imported(sweep, code=2)
+assert "--test dynamic_mechanical" in said, said
 creep = table("creep.csv", ["Time [s],Load [N],Extension [mm]", "0,1,0.5", "10,1,0.8", "100,1,1.1"])
 experiment, said = imported(creep, "--test", "creep", "--area", "6 mm2", "--gauge-length", "20 mm")
 assert experiment["tests"]["creep"]["data"]["columns"] == {"time": "Time", "force": "Load", "displacement": "Extension"}, experiment

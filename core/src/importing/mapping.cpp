@@ -2,6 +2,7 @@
 #include "importing/mapping.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 
 #include <fmt/format.h>
@@ -117,10 +118,26 @@ class Mapper {
     return measure == "true" ? "true_strain" : measure == "green" ? "green_strain" : "strain";
   }
 
+  /// The observable that a column of no known quantity is titled as: "Storage modulus", or "E'".
+  std::string titled(const ColumnGuess& column) const {
+    const auto plain = [](std::string text) {
+      std::erase_if(text, [](char c) { return c == ' ' || c == '_' || c == '-'; });
+      std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      return text;
+    };
+    const std::string title = plain(folded(column.title));
+    for (const Observable& observable : factory_.observables)
+      if (plain(observable.name) == title) return observable.name;
+    for (const auto& [known, name] : known_titles)
+      if (title == known && quantity(name)) return name;
+    return {};
+  }
+
   /// The observable of this test, or the quantity that yields it, for a guessed column.
   std::string name_for(const ColumnGuess& column) const {
     const std::string word = word_of(column);
-    if (word.empty() || (column.set_point && !prescribed(column))) return {};
+    if (word.empty()) return titled(column);
+    if (column.set_point && !prescribed(column)) return {};
     for (const std::string& name :
          {column.direction.empty() ? word : word + "_" + column.direction, word, "axial_" + word})
       if (quantity(name)) return name;
@@ -297,10 +314,21 @@ class Mapper {
                                   : column.values.empty()
                                       ? std::string()
                                       : fmt::format(" (text such as '{}')", data::excerpt(column.values.back()))));
-    const auto indents = [](const ColumnGuess& column) { return column.kind == indentation; };
-    const std::string hint = std::any_of(columns_.begin(), columns_.end(), indents)
-                                 ? " A tip that is pressed into a surface is a test of its own, --test indentation."
-                                 : "";
+    const auto some = [this](const std::string ColumnGuess::*member, std::string_view text) {
+      return std::any_of(columns_.begin(), columns_.end(),
+                         [&](const ColumnGuess& column) { return column.*member == text; });
+    };
+    const bool held = some(&ColumnGuess::quantity, "time") &&
+                      (some(&ColumnGuess::quantity, "force") || some(&ColumnGuess::quantity, "stress"));
+    const std::string hint =
+        some(&ColumnGuess::kind, indentation)
+            ? " A tip that is pressed into a surface is a test of its own, --test indentation."
+        : some(&ColumnGuess::kind, "a frequency")
+            ? " Moduli over the frequency are of an oscillation, --test dynamic_mechanical."
+        : held && factory_.specimen == Specimen::strip
+            ? " Where the strip was held at one stretch all the time, give --test loading_segments --set "
+              "segments=STRETCH."
+            : "";
     bool channel = false;
     for (const Observable& observable : factory_.observables) {
       channel = channel || (observable.role == Role::channel && given_.contains(observable.name));

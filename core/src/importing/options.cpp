@@ -95,7 +95,7 @@ std::string add_hold(Json& entry, const ColumnGuess& time, const Ask& ask) {
   const double before = late ? time.begins[0] : 0;
   Json segments =
       Json::array({{{"ramp", {{"stretch", given}}}, {"duration", 0}}, {{"hold", lasting(time.largest - before)}}});
-  if (late) segments.insert(segments.begin(), {{"ramp", {{"stretch", 1}}}, {"duration", lasting(before)}});
+  if (late) segments.insert(segments.begin(), Json{{"ramp", {{"stretch", 1}}}, {"duration", lasting(before)}});
   entry["segments"] = std::move(segments);
   if (!late) return {};
   return fmt::format(
