@@ -161,13 +161,15 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
   };
   // The lowest minimum counts as found if two starts have reached it. The misfit of a poorer one would look like a
   // cause, and hides among noise where it is as small.
-  // A misfit that is no noise is believed after a batch more: two starts may have reached a poorer minimum.
+  // Of many starts a third has to end there, since two may have reached a poorer minimum. A misfit that is no noise is
+  // believed after a batch more.
   const double rows = static_cast<double>(base.fit.residuals.size()), noise_alone = rows + 2 * std::sqrt(2 * rows);
   const auto is_open = [&](const std::vector<Fit>& ended) {
     const auto there = std::ranges::count_if(
         ended, [&](const Fit& fit) { return fit.status.ok() && fit.chi2 <= (1 + far) * base.fit.chi2 + same; });
+    const bool few = there < 2 || 3 * static_cast<std::size_t>(there) < ended.size();
     const bool doubtful = ended.size() == starts.size() && base.fit.chi2 > noise_alone;
-    return !assembly.layout().has_costly_tests && (there < 2 || doubtful);
+    return !assembly.layout().has_costly_tests && (few || doubtful);
   };
   std::vector<Fit> ended = fits;
   for (std::size_t batch = 0;
