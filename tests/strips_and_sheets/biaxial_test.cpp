@@ -181,7 +181,8 @@ TEST(Biaxial, RefusesColumnsThatDoNotFitTheProtocol) {
 
 TEST(Biaxial, RefusesRowsItCannotSimulate) {
   EXPECT_SAYS(refusal("general", both({1, 1.1}, {1, -0.2})), "row 2 has 'stretch_axial' -0.2");
-  EXPECT_SAYS(refusal("equibiaxial", one({1, 1.1, 1.2}), {.time = {0, 2, 1}}), "time runs backwards at row 3");
+  EXPECT_SAYS(refusal("equibiaxial", one({1, 1.1, 1.2}), {.time = {0, 2, 1}}),
+              "time runs backwards at row 3; give the rows in the order in which they were measured");
   EXPECT_SAYS(refusal("equibiaxial", one({})), "there are no rows");
 }
 

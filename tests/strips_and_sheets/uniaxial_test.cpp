@@ -301,7 +301,9 @@ TEST(Uniaxial, RefusesRowsItCannotSimulate) {
     return {};
   };
   EXPECT_NE(message({1, -0.2}, {}).find("row 2 has stretch"), std::string::npos);
-  EXPECT_NE(message({1, 1.1, 1.2}, {0, 2, 1}).find("time runs backwards at row 3"), std::string::npos);
+  EXPECT_NE(message({1, 1.1, 1.2}, {0, 2, 1})
+                .find("uniaxial: time runs backwards at row 3; give the rows in the order in which they were measured"),
+            std::string::npos);
   EXPECT_NE(message({}, {}).find("no rows"), std::string::npos);
 }
 

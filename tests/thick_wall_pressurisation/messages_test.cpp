@@ -52,7 +52,8 @@ TEST(TubeMessages, RowsThatCannotBeSimulatedAreRefused) {
   Options one_point;
   one_point.set("gauss_points", std::int64_t{1});
   EXPECT_SAYS(refusal({1}, {.options = one_point}), "\"gauss_points\" is 1, which integrates nothing well");
-  EXPECT_SAYS(refusal({1, 2, 3}, {.time = {0, 2, 1}}), "time runs backwards at row 3");
+  EXPECT_SAYS(refusal({1, 2, 3}, {.time = {0, 2, 1}}),
+              "time runs backwards at row 3; give the rows in the order in which they were measured");
   TestSetup no_pressure;
   no_pressure.options = defaults(catalogue().tests().at("thick_wall_pressurisation").factory.options);
   no_pressure.options.set("inner_radius", 3.);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "../loading_order/loading_order.hpp"
+
 namespace tunica::biaxial {
 namespace {
 
@@ -54,10 +56,7 @@ void check_rows(const Sheet& sheet) {
       if (!(sheet.columns[k][i] > 0 && std::isfinite(sheet.columns[k][i])))
         throw InputError("biaxial: row " + std::to_string(i + 1) + " has '" + sheet.names[k] + "' " +
                          std::to_string(sheet.columns[k][i]) + "; a stretch is positive");
-  for (std::size_t i = 1; i < sheet.time.size(); ++i)
-    if (!(sheet.time[i] >= sheet.time[i - 1]))
-      throw InputError("biaxial: time runs backwards at row " + std::to_string(i + 1) +
-                       "; rows must stand in loading order");
+  check_loading_order("biaxial", sheet.time);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "../loading_order/loading_order.hpp"
+
 namespace tunica::controlled_strip {
 
 Control measure_of(const std::string& stress_measure) {
@@ -24,10 +26,7 @@ Strip strip_of(const TestSetup& setup, const char* type) {
                              : channel == "transverse_stretch" ? Channel::transverse_stretch
                              : channel == "normal_stretch"     ? Channel::normal_stretch
                                                                : Channel::stretch);
-  for (std::size_t i = 1; i < setup.rows.time.size(); ++i)
-    if (!(setup.rows.time[i] >= setup.rows.time[i - 1]))
-      throw InputError(std::string(type) + ": time runs backwards at row " + std::to_string(i + 1) +
-                       "; rows must stand in loading order");
+  check_loading_order(type, setup.rows.time);
   return strip;
 }
 

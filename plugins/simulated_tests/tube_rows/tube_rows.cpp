@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "../loading_order/loading_order.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica {
@@ -61,10 +62,7 @@ void check_rows(const TubeRows& tube) {
       throw InputError(
           fmt::format("{}: row {} has axial stretch {:g}; a stretch is positive", tube.test, i + 1, stretch));
   }
-  for (std::size_t i = 1; i < tube.time.size(); ++i)
-    if (!(tube.time[i] >= tube.time[i - 1]))
-      throw InputError(
-          fmt::format("{}: time runs backwards at row {}; rows must stand in loading order", tube.test, i + 1));
+  check_loading_order(tube.test, tube.time);
 }
 
 Option radius(const char* name, const char* doc) { return Option::quantity(name, "mm", 0.0, doc, 0.0); }

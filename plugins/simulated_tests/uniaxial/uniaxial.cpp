@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "../loading_order/loading_order.hpp"
 #include "along_radius.hpp"
 #include "axes_path.hpp"
 #include "compressible.hpp"
@@ -155,10 +156,7 @@ class Uniaxial final : public Test {
       if (!(strip_.stretch[i] > 0 && std::isfinite(strip_.stretch[i])))
         throw InputError("uniaxial: row " + std::to_string(i + 1) + " has stretch " +
                          std::to_string(strip_.stretch[i]) + "; a stretch is positive");
-    for (std::size_t i = 1; i < strip_.time.size(); ++i)
-      if (!(strip_.time[i] >= strip_.time[i - 1]))
-        throw InputError("uniaxial: time runs backwards at row " + std::to_string(i + 1) +
-                         "; rows must stand in loading order");
+    check_loading_order("uniaxial", strip_.time);
     for (const std::string& channel : setup.rows.channels)
       strip_.channels.push_back(channel == "transverse_stretch" ? Channel::transverse_stretch
                                 : channel == "normal_stretch"   ? Channel::normal_stretch
