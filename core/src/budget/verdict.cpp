@@ -311,7 +311,7 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
   std::vector<std::string> unseen;
   if (const Contender& first = *decision.first.front();  // a mistake of the file leads without being a mechanism
       decision.verdict == Verdict::leading && catalogue.mechanisms().contains(first.id))
-    unseen = diagnosis::unseen_rivals(inquiry, d.analysis.hypotheses, first.id);
+    unseen = diagnosis::unseen_rivals(inquiry, d.analysis, first.id, first.place);
   if (!unseen.empty()) decision.verdict = Verdict::indistinguishable;
   explanation.verdict = decision.verdict;
   withdraw_causes(d);

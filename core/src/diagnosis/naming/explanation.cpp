@@ -75,7 +75,7 @@ Explanation explain(const Inquiry& inquiry, const Analysis& analysis, const std:
   admissibility.remedy = found.admissibility.remedy;
   found.admissibility = std::move(admissibility);
   found.gross = gross;
-  limit_by_unseen_rivals(inquiry, hypotheses, found);
+  limit_by_unseen_rivals(inquiry, analysis, found);
   if (found.best_direction.empty())
     for (std::size_t c = 0; c < hypotheses.candidates.size(); ++c)
       found.best_direction.push_back(likeliest_direction(hypotheses.directions, -analysis.evidence.fit.residuals, c));
