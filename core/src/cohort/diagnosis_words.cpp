@@ -6,6 +6,7 @@
 
 #include "budget/output/outputs.hpp"
 #include "cohort/diagnosis_study.hpp"
+#include "diagnosis/output/outputs.hpp"
 #include "text/lists.hpp"
 #include "text/misfit_words.hpp"
 #include "text/units.hpp"
@@ -34,7 +35,7 @@ std::string verdict_sentence(const CohortVerdict& verdict) {
     case Verdict::indistinguishable: {
       std::vector<std::string> all;
       for (const auto& group : verdict.look_alikes) all.insert(all.end(), group.begin(), group.end());
-      return fmt::format("INDISTINGUISHABLE: {} explain the misfit about equally well", fmt::join(all, ", "));
+      return diagnosis::rivalry(all);
     }
     case Verdict::suspect_data:
       return "SUSPECT DATA: " + reasons_of(verdict);

@@ -30,6 +30,9 @@ std::string result_document(const Diagnosis& diagnosis, const experiment::Experi
 /// The ambiguity set in words: "a (or b, c, much the same here)", "d"; of what acts together "a with b", "a with c".
 std::vector<std::string> explanations(const Claim& claim);
 
+/// "INDISTINGUISHABLE: a, b explain the misfit about equally well", of explanations in words.
+std::string rivalry(const std::vector<std::string>& all);
+
 /// The text on the terminal: what is wrong and where, the cause and how certain it is, its rivals, the gain, and the
 /// next measurement. `below_verdict`: lines directly below the verdict.
 text::StyledText summary(const Diagnosis& diagnosis, const text::StyledText& below_verdict = {});

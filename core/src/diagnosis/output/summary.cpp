@@ -33,11 +33,6 @@ std::string joined_reasons(const Explanation& explanation) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
-std::string rivalry(const std::vector<std::string>& all) {
-  return fmt::format("{} {}", fmt::join(all, ", "),
-                     all.size() == 1 ? "explains the misfit" : "explain the misfit about equally well");
-}
-
 std::string verdict_line(const Diagnosis& d) {
   const Explanation& explanation = d.explanation;
   const Claim& claim = explanation.claim;
@@ -72,8 +67,7 @@ std::string verdict_line(const Diagnosis& d) {
                            fmt::join(claim.ambiguity_set, " and "));
       if (!explanation.reasons.empty() && explanation.reasons.front().kind == ReasonKind::several_lead)
         return "INDISTINGUISHABLE: " + joined_reasons(explanation);
-      return "INDISTINGUISHABLE: " + rivalry(explanations(claim)) +
-             (explanation.unlisted || explanation.reasons.empty() ? "" : "; ") +
+      return rivalry(explanations(claim)) + (explanation.unlisted || explanation.reasons.empty() ? "" : "; ") +
              (explanation.unlisted ? "" : joined_reasons(explanation));
     case Verdict::suspect_data:
       return "SUSPECT DATA: " + joined_reasons(explanation);
@@ -307,6 +301,11 @@ std::string not_tried(const std::vector<Detectable>& detectable) {
 }
 
 }  // namespace
+
+std::string rivalry(const std::vector<std::string>& all) {
+  return fmt::format("INDISTINGUISHABLE: {} {}", fmt::join(all, ", "),
+                     all.size() == 1 ? "explains the misfit" : "explain the misfit about equally well");
+}
 
 std::vector<std::string> explanations(const Claim& claim) {
   std::vector<std::string> all;
