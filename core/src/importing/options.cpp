@@ -12,6 +12,13 @@
 #include "tunica/error.hpp"
 
 namespace tunica::importing {
+namespace {
+
+bool declares(const TestFactory& factory, const std::string& option) {
+  return std::ranges::any_of(factory.options, [&](const Option& one) { return one.name == option; });
+}
+
+}  // namespace
 
 Json option_value(const TestFactory& factory, const std::string& key, const std::string& text) {
   using Kind = Option::Kind;
@@ -59,10 +66,18 @@ void add_layout(Json& data, const Answers& answers) {
   if (!answers.rows.empty()) data["rows"] = answers.rows;
 }
 
+bool has_wall(const TestFactory& factory, const Json& entry) {
+  for (const char* const size : {"inner_radius", "outer_radius", "thickness"})
+    if (!declares(factory, size)) return false;
+  return entry.contains("inner_radius") || entry.contains("thickness");
+}
+
 void add_tube_options(Json& entry, const TestFactory& factory, const Answers& answers, bool stretch_in_column,
                       const Ask& ask) {
-  if (!answers.thickness.empty() && !entry.contains("thickness")) entry["thickness"] = answers.thickness;
-  if (!stretch_in_column && !entry.contains("axial_stretch"))
+  // Tubes of other authors may have other options.
+  const auto is_open = [&](const char* option) { return declares(factory, option) && !entry.contains(option); };
+  if (!answers.thickness.empty() && is_open("thickness")) entry["thickness"] = answers.thickness;
+  if (!stretch_in_column && is_open("axial_stretch"))
     entry["axial_stretch"] =
         option_value(factory, "axial_stretch",
                      ask({"Axial stretch that is held; 1 = the unloaded length", "--set axial_stretch=NUMBER", "1.2"}));
@@ -70,9 +85,9 @@ void add_tube_options(Json& entry, const TestFactory& factory, const Answers& an
   const auto given =
       std::count_if(std::begin(sizes), std::end(sizes), [&](const char* key) { return entry.contains(key); });
   if (given >= 2) return;
-  if (!entry.contains("thickness"))
+  if (is_open("thickness"))
     entry["thickness"] = ask({"Thickness of the unloaded wall, with its unit", "--thickness", "0.8 mm", true});
-  if (!entry.contains("outer_radius"))
+  if (is_open("outer_radius"))
     entry["outer_radius"] =
         ask({"Outer radius of the unloaded tube, with its unit", "--set outer_radius=LENGTH", "2.3 mm", true});
 }

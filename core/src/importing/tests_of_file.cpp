@@ -45,7 +45,10 @@ class File {
                                  : fmt::format("'{}'", csv_.delimiter));
   }
 
-  [[nodiscard]] Specimen specimen() const { return factory_.specimen; }
+  /// After tests().
+  [[nodiscard]] Specimen specimen() const {
+    return factory_.specimen == Specimen::other && has_wall_ ? Specimen::tube : factory_.specimen;
+  }
 
   /// Name and entry of each test.
   std::vector<std::pair<std::string, Json>> tests(const std::filesystem::path& folder) {
@@ -371,6 +374,7 @@ class File {
           break;
         }
     if (factory_.specimen == Specimen::tube) add_tube_options(entry, factory_, answers_, stretched, ask_);
+    has_wall_ = has_wall(factory_, entry);
   }
 
   std::filesystem::path file_;
@@ -385,6 +389,7 @@ class File {
   Json units_ = Json::object();
   std::string cycle_column_, measure_;
   std::string direction_;  ///< from the table of specimens
+  bool has_wall_ = false;
   SignWords said_;
 };
 
@@ -394,7 +399,8 @@ TestsOfFile tests_of_file(const std::filesystem::path& file, const Answers& answ
                           const std::filesystem::path& folder, const plugins::Catalogue& catalogue, const Ask& ask,
                           std::vector<std::string>& notes) {
   File reading(file, answers, catalogue, ask, notes);
-  return {reading.specimen(), reading.tests(folder)};
+  auto tests = reading.tests(folder);
+  return {reading.specimen(), std::move(tests)};
 }
 
 }  // namespace tunica::importing

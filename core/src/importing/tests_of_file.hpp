@@ -12,7 +12,7 @@ namespace tunica::importing {
 
 /// What one file is proposed to be.
 struct TestsOfFile {
-  Specimen specimen;                                ///< of the type of all its tests
+  Specimen specimen;                                ///< of all its tests
   std::vector<std::pair<std::string, Json>> tests;  ///< name and entry of each
 };
 
