@@ -200,6 +200,40 @@ TEST(ClaimOfSeveral, TakesTheSameMechanismsElsewhereForNoOtherExplanation) {
   EXPECT_LE(found.claim.causes[0].probability, 1);
 }
 
+/// m2 would have to be 9, and 1 is plausible. With odds of twenty to one against it, it is still as likely as the pair.
+struct BesideWhatNobodyBelieves : MadeUpCauses {
+  explicit BesideWhatNobodyBelieves(double plausible) : MadeUpCauses({3}, Eigen::Vector3d(7, 6, 9)) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      MadeUp one{"m" + std::to_string(k), at_rows(3, {{k, 1}})};
+      if (k == 2) one.declare = [plausible](MechanismFactory& factory) { factory.plausible_max = plausible; };
+      add(std::move(one));
+    }
+    close();
+  }
+  [[nodiscard]] WeighedClaim claimed(bool clean) {
+    Group pair = group_of({direction("m0"), direction("m1")});
+    Single doubted = single("m2");
+    pair.log_weight = 10;
+    doubted.log_weight = 10 + log_odds_of_pair(1);
+    return claim_several(inquiry(), analysis, {pair}, {doubted}, clean);
+  }
+};
+
+TEST(ClaimOfSeveral, LeavesWhatNobodyBelievesOutBesideWhatLeavesNoise) {
+  BesideWhatNobodyBelieves causes(500);
+  EXPECT_FALSE(causes.claimed(true).alone) << "a plausible one is a rival";
+  EXPECT_THAT(causes.claimed(true).claim.doubted, IsEmpty());
+
+  BesideWhatNobodyBelieves doubtful(1);
+  const WeighedClaim found = doubtful.claimed(true);
+  EXPECT_TRUE(found.alone);
+  EXPECT_THAT(found.claim.ambiguity_set, ElementsAre("m0", "m1"));
+  EXPECT_NEAR(found.claim.causes.front().probability, 20.0 / 21, 1e-9);
+  const Claim beside = doubtful.claimed(false).claim;
+  EXPECT_THAT(beside.ambiguity_set, ElementsAre("m0", "m1", "m2"));
+  EXPECT_THAT(beside.doubted, ElementsAre(Names{"m2"})) << "it stays in the set and is marked";
+}
+
 // Data of 3 in the second row: q = (1, 1) takes half of it by itself and p = (1, 0) nothing, and together all.
 TEST(ClaimOfSeveral, SaysWhichMemberMayOnlyCorrectAShape) {
   MadeUpCauses causes({2}, Eigen::Vector2d(0, 3));

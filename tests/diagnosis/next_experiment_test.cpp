@@ -83,6 +83,18 @@ TEST(NextExperiment, IsOneInWhichTheRivalsDiffer) {
   EXPECT_THAT(next.description, HasSubstr("equibiaxial beside uniaxial extension"));
 }
 
+TEST(NextExperiment, IsNotDecidedByWhatNobodyBelieves) {
+  const Addition offset{"force_offset", {{"circumferential"}}, {}};
+  Rivals rivals({{"circumferential_fibres", {}, {}}, {"second_invariant", {}, {}}, offset});
+  rivals.explanation.claim.doubted = {{"force_offset"}};
+  const NextExperiment next = rivals.next(),
+                       without = Rivals({{"circumferential_fibres", {}, {}}, {"second_invariant", {}, {}}}).next();
+  EXPECT_EQ(next.description, without.description);
+  EXPECT_EQ(next.separates, rivals.explanation.claim.ambiguity_set) << "it is still of the set";
+  rivals.explanation.claim.doubted = {{"second_invariant"}, {"force_offset"}};
+  EXPECT_THAT(rivals.next().description, Not(HasSubstr("second_invariant: "))) << "no two are left to decide";
+}
+
 TEST(NextExperiment, IsNoneOfTheLibraryWhereTheRivalsSayTheSameOfTheMaterial) {
   const Addition offset{"force_offset", {{"circumferential"}}, {}};
   const NextExperiment next = Rivals({offset, offset}).next();

@@ -192,6 +192,9 @@ TEST_F(Summary, ListsWhatRivalsAPair) {
   EXPECT_EQ(line("Or else"), "no other mechanism of the catalogue comes close");
   claim.alternatives = {{"a", "b"}, {"c"}, {"d", "e"}, {"f", "g"}};
   EXPECT_EQ(line("Or else"), "a with b, c alone, d with e, f with g");
+  claim.doubted = {{"c"}, {"d", "e"}};
+  EXPECT_EQ(line("Or else"), "a with b, c alone (beyond belief), d with e (beyond belief), f with g");
+  claim.doubted.clear();
   claim.alternatives.push_back({"h", "i"});
   claim.alternatives.push_back({"j", "k"});
   EXPECT_EQ(line("Or else"), "a with b, c alone, d with e, f with g, and 2 more");
@@ -201,6 +204,11 @@ TEST_F(Summary, WordsAnAmbiguitySetByWhatLooksAlike) {
   EXPECT_THAT(explanations(claim), ElementsAre("first", "second"));
   claim.look_alikes = {{"first", "third", "fourth"}, {"second"}};
   EXPECT_THAT(explanations(claim), ElementsAre("first (or third, fourth, much the same here)", "second"));
+  claim.doubted = {{"second"}, {"fourth"}};
+  EXPECT_THAT(explanations(claim),
+              ElementsAre("first (or third, fourth (beyond belief), much the same here)", "second (beyond belief)"));
+  claim.in_words = {"first in the test 'a'", "first in the test 'b'"};
+  EXPECT_THAT(explanations(claim), ElementsAre("first in the test 'a'", "first in the test 'b'"));
 }
 
 /// Of blocks it names the one that falls most among those that are predicted, and the furthest of those that are not.

@@ -921,7 +921,7 @@ class Diagnosis(TypedDict):
     #: The ambiguity set by what looks alike on these data (correlation above 0.9, also through others), the likeliest
     #: first in each. Absent without a set.
     look_alikes: NotRequired[list[list[str]]]
-    #: The ambiguity set in words, one explanation each. Absent without causes.
+    #: The ambiguity set in words, one explanation each; where the budget has a tie, with places. Absent without causes.
     explanations: NotRequired[list[str]]
     #: True where one of the causes explains next to nothing without the others: together they may make up for an effect
     #: that no mechanism lists. Absent otherwise.

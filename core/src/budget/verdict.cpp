@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "budget/decision.hpp"
 #include "budget/next_step.hpp"
 #include "budget/output/outputs.hpp"
+#include "budget/tie.hpp"
 #include "diagnosis/naming/causes.hpp"
 #include "diagnosis/naming/unseen_rivals.hpp"
 #include "diagnosis/prospects/gain.hpp"
@@ -33,8 +33,6 @@ double share_of(const Budget& budget, const Contender& contender) {
   return std::max(sum, contender.share);
 }
 
-std::string place_of(const diagnosis::Place& place) { return place.tests.empty() ? "" : " " + place.words(); }
-
 /// What a contender is a kind of: "a law of the first invariant", "axial fibres", or its id.
 std::string class_of(const Contender& contender) {
   if (contender.sort == "I1") return "a law of the first invariant";
@@ -44,10 +42,6 @@ std::string class_of(const Contender& contender) {
   constexpr std::string_view fibre = "fibre ";
   if (contender.sort.starts_with(fibre)) return contender.sort.substr(fibre.size()) + " fibres";
   return contender.id;
-}
-
-std::string the_misfit(const Budget& budget) {
-  return budget.base.rms <= budget.tolerance.share ? "a misfit that is within the tolerance" : "the misfit";
 }
 
 /// "; that it is a smooth misfit without a listed cause has probability 0.24", where that is not excluded.
@@ -75,7 +69,7 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
     return fmt::format(
         "mainly {}{}: it takes {} of {}; the base is not stable as it is fitted, so that the "
         "form of the law is open; {}",
-        class_of(first), place_of(first.place), percent(share_of(budget, first)), misfit,
+        class_of(first), place_words(first.place), percent(share_of(budget, first)), misfit,
         remains(budget.rest(), budget.tolerance));
   std::vector<std::string> forms;
   std::set<std::string> said{first.id};
@@ -85,7 +79,7 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
   const bool acts_like = first.in_the_energy && !first.id.starts_with(first.sort);
   const std::string like = acts_like ? fmt::format(", which acts like a law of {} here", first.sort) : "";
   std::string text = fmt::format("mainly {}{}{}{}: it takes {} of {}", first.term ? "the term " : "", first.id, like,
-                                 place_of(first.place), percent(share_of(budget, first)), misfit);
+                                 place_words(first.place), percent(share_of(budget, first)), misfit);
   std::vector<std::string> others;
   std::size_t own = 0;
   for (const Step& step : budget.steps) {
@@ -100,31 +94,6 @@ std::string leading_words(const Budget& budget, const Decision& decision, bool s
   if (!forms.empty()) text += fmt::format("; its form is open ({} alone)", fmt::join(forms, ", "));
   if (others.empty()) return text + "; " + remains(budget.rest(), budget.tolerance);
   return fmt::format("{}; with {}, {}", text, fmt::join(others, " and "), remains(budget.rest(), budget.tolerance));
-}
-
-/// One of each sort; powers of the stretches that act like different invariants have one name.
-std::string tie_words(const Budget& budget, const Decision& decision) {
-  std::vector<const Contender*> shown;
-  std::set<std::string> answers;
-  std::map<std::string, int> named;
-  for (const Contender* one : decision.first)
-    if (answers.insert(one->answer()).second) {
-      shown.push_back(one);
-      ++named[one->id + place_of(one->place)];
-    }
-  std::vector<std::string> parts;
-  for (const Contender* one : shown) {
-    const bool alike = named[one->id + place_of(one->place)] > 1;
-    parts.push_back(fmt::format("{}{}{} {}{}", one->id, alike ? ", acting like " + one->sort + "," : "",
-                                place_of(one->place), percent(one->share) + price(*one),
-                                one->belief == Belief::beyond ? " (beyond what is plausible)" : ""));
-  }
-  const std::string rest = remains(budget.rest(), budget.tolerance);
-  if (parts.size() == 1)
-    return fmt::format("{} takes so much of {}, but what may look like it was not looked for; {}", parts.front(),
-                       the_misfit(budget), rest);
-  return fmt::format("alone, these take so much of {} that none is clearly ahead: {}; {}", the_misfit(budget),
-                     fmt::join(parts, ", "), rest);
 }
 
 std::string unknown_words(const Budget& budget) {
@@ -142,8 +111,8 @@ std::string unknown_words(const Budget& budget) {
   const auto& all = budget.contenders;
   const auto listed = std::find_if(all.begin(), all.end(), [](const Contender& one) { return !one.is_state(); });
   const Contender& best = listed == all.end() ? all.front() : *listed;
-  text += fmt::format("; the best single cause, {}{}, takes {}{}", best.id, place_of(best.place), percent(best.share),
-                      price(best));
+  text += fmt::format("; the best single cause, {}{}, takes {}{}", best.id, place_words(best.place),
+                      percent(best.share), price(best));
   if (best.belief == Belief::beyond) text += " with an amplitude that is beyond belief";
   if (const std::string doubt = doubt_words(budget); !doubt.empty())
     text += doubt;
@@ -152,13 +121,13 @@ std::string unknown_words(const Budget& budget) {
   const Contender& most = all.front();
   const bool state_said = most.is_state() && best.share < most_of_it;
   if (state_said)
-    text += fmt::format("; {}{} takes {}{}", most.id, place_of(most.place), percent(most.share), price(most));
+    text += fmt::format("; {}{} takes {}{}", most.id, place_words(most.place), percent(most.share), price(most));
   const Contender& likeliest = *std::max_element(
       all.begin(), all.end(), [](const Contender& a, const Contender& b) { return a.probability < b.probability; });
   if (&likeliest != &best && !(state_said && &likeliest == &most) &&
       likeliest.probability > std::max(best.probability, 1 - sure_enough))
     text += fmt::format("; the likeliest cause, {}{}, takes {} and has probability {:.2f}", likeliest.id,
-                        place_of(likeliest.place), percent(likeliest.share), likeliest.probability);
+                        place_words(likeliest.place), percent(likeliest.share), likeliest.probability);
   return text;
 }
 
@@ -175,7 +144,8 @@ void claim(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysi
       if (own.id != addition.id || !(own.place == addition.place)) continue;
       diagnosis::Cause cause = diagnosis::cause_of(inquiry, analysis, refit, k, direction);
       for (const Contender& one : budget.contenders)
-        if (one.id == cause.id) cause.probability = std::max(cause.probability, one.probability);
+        if (one.id == cause.id && one.place == cause.place)
+          cause.probability = std::max(cause.probability, one.probability);
       cause.p_value = analysis.alarm.detector->candidate_p(direction.candidate, cause.gain);
       claim.causes.push_back(std::move(cause));
       break;
@@ -315,12 +285,6 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
   if (!unseen.empty()) decision.verdict = Verdict::indistinguishable;
   explanation.verdict = decision.verdict;
   withdraw_causes(d);
-  const auto isolating = [&](const std::string& id) -> std::string {
-    const auto found = catalogue.mechanisms().find(id);
-    return found == catalogue.mechanisms().end() || found->second.factory.isolated_by.empty()
-               ? ""
-               : fmt::format("{}: {}", id, found->second.factory.isolated_by);
-  };
   if (decision.verdict == Verdict::leading) {
     budget.lead = *decision.first.front();
     propose_state(budget, d.analysis, catalogue);
@@ -334,24 +298,18 @@ diagnosis::Diagnosis judged(Budget& budget, const experiment::Experiment& experi
     add_anisotropy(budget, explanation);
     const Contender& first = *decision.first.front();
     if (!first.term && first.belief == Belief::plausible)
-      if (const std::string how = isolating(first.id); !how.empty())
-        d.prospects.next = diagnosis::NextExperiment{fmt::format("To confirm {}.", how), {}, std::nullopt};
+      if (const std::string how = isolated_by(first.id, catalogue); !how.empty())
+        d.prospects.next =
+            diagnosis::NextExperiment{fmt::format("To confirm {}: {}.", first.id, how), {}, std::nullopt};
     return d;
   }
+  const std::vector<const Contender*> ties = tied(decision.first);
   explanation.reasons = {
-      {ReasonKind::several_lead, tie_words(budget, decision) + doubt_words(budget) + cheaper_words(budget)}};
+      {ReasonKind::several_lead, tie_words(budget, ties) + doubt_words(budget) + cheaper_words(budget)}};
   if (!unseen.empty()) explanation.reasons.push_back(diagnosis::not_looked_for(unseen));
   add_anisotropy(budget, explanation);
-  std::vector<std::string> how;
-  std::set<std::string> sorts;
-  for (const Contender* one : decision.first) {
-    if (!sorts.insert(one->sort).second) continue;
-    explanation.claim.ambiguity_set.push_back(one->id);
-    explanation.claim.look_alikes.push_back({one->id});
-    if (std::string text = isolating(one->id); !text.empty()) how.push_back(std::move(text));
-  }
-  for (std::string& rival : unseen) explanation.claim.ambiguity_set.push_back(std::move(rival));
-  if (!how.empty())
+  claim_tie(ties, unseen, explanation.claim);
+  if (const std::vector<std::string> how = switches(ties, catalogue); !how.empty())
     d.prospects.next = diagnosis::NextExperiment{
         fmt::format("To tell them apart, a test that switches one of them alone: {}.", fmt::join(how, "; ")),
         explanation.claim.ambiguity_set, std::nullopt};

@@ -16,6 +16,12 @@ using text::percent;
 /// "stated", "default", "scatter between the repeats"
 const char* origin_words(const Tolerance& tolerance);
 
+/// " in the test 'strip'" after the name of a cause; empty where it acts on the material.
+std::string place_words(const diagnosis::Place& place);
+
+/// "the misfit", or that it is within the tolerance.
+std::string the_misfit(const Budget& budget);
+
 /// "2.3 % of the range remains (tolerance 2.0 %, default), for which no cause is claimed"
 std::string remains(const Size& rest, const Tolerance& tolerance);
 

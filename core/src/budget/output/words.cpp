@@ -19,7 +19,7 @@ std::string added(const std::vector<Step>& steps, std::size_t which) {
   const auto before = std::count_if(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(which),
                                     [&](const Step& other) { return other.id == step.id; });
   const char* const ordinal = before == 0 ? "" : before == 1 ? "a second " : "one more ";
-  return fmt::format("{}{}{}", ordinal, step.id, step.place.tests.empty() ? "" : " " + step.place.words());
+  return fmt::format("{}{}{}", ordinal, step.id, place_words(step.place));
 }
 
 /// "viscoelasticity (needs a time column); stress_softening (needs the order of the rows)"
@@ -43,6 +43,12 @@ std::string untried(const std::vector<Budget::Untried>& all) {
 }
 
 }  // namespace
+
+std::string place_words(const diagnosis::Place& place) { return place.tests.empty() ? "" : " " + place.words(); }
+
+std::string the_misfit(const Budget& budget) {
+  return budget.base.rms <= budget.tolerance.share ? "a misfit that is within the tolerance" : "the misfit";
+}
 
 std::string price(const Contender& contender) {
   if (!contender.is_state()) return {};
@@ -104,8 +110,7 @@ text::StyledText summary(const Budget& budget, const std::string& base) {
     // Of several tests each may be the other state: one stands for them.
     if (step || one.share < 0.1 || others.size() >= 3 || (state && one.is_state())) continue;
     state = state || one.is_state();
-    others.push_back(fmt::format("{}{} {}{}{}", one.id, one.place.tests.empty() ? "" : " " + one.place.words(),
-                                 percent(one.share), price(one),
+    others.push_back(fmt::format("{}{} {}{}{}", one.id, place_words(one.place), percent(one.share), price(one),
                                  one.belief == Belief::beyond ? " (beyond belief)" : ""));
   }
   if (!others.empty()) lines += text::hanging("Alone:    ", fmt::format("{}", fmt::join(others, ", "))) + '\n';

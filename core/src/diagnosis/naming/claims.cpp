@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "diagnosis/naming/causes.hpp"
+#include "diagnosis/naming/credibility.hpp"
 #include "diagnosis/naming/credible.hpp"
 
 namespace tunica::diagnosis {
@@ -67,7 +68,7 @@ struct Rival {
   const Single* single;
   double log_weight;
   double probability = 0;
-  bool in_set = true;
+  bool in_set = true, credible = true;
 
   [[nodiscard]] const Refit& refit() const { return group ? *group->refit : *single->best; }
   [[nodiscard]] ActingTogether directions() const {
@@ -75,8 +76,19 @@ struct Rival {
   }
 };
 
+/// Groups and singles were weighed among themselves. Beside a credible group that leaves only noise, what is not
+/// credible weighs a twentieth of it together.
+void weigh_doubt(std::vector<Rival>& rivals) {
+  const auto doubtful = std::count_if(rivals.begin(), rivals.end(), [](const Rival& one) { return !one.credible; });
+  if (doubtful == 0 || !rivals.front().credible) return;
+  const double most = rivals.front().log_weight - std::log(odds_against * static_cast<double>(doubtful));
+  for (Rival& rival : rivals)
+    if (!rival.credible) rival.log_weight = std::min(rival.log_weight, most);
+}
+
 /// Likeliest first; the best group is the first of them.
-std::vector<Rival> rivals_of(const std::vector<Group>& groups, const std::vector<Single>& singles) {
+std::vector<Rival> rivals_of(const Inquiry& inquiry, const Analysis& analysis, const std::vector<Group>& groups,
+                             const std::vector<Single>& singles, bool clean) {
   const Group& best = groups.front();
   const double odds = static_cast<double>(best.additions.size() - 1) * log_odds_of_pair(singles.size());
   std::vector<Rival> rivals;
@@ -84,6 +96,8 @@ std::vector<Rival> rivals_of(const std::vector<Group>& groups, const std::vector
     if (group.additions.size() == best.additions.size()) rivals.push_back({&group, nullptr, group.log_weight + odds});
   for (const Single& single : singles)
     if (single.best) rivals.push_back({nullptr, &single, single.log_weight});
+  for (Rival& rival : rivals) rival.credible = is_credible(inquiry, analysis, rival.refit(), rival.directions());
+  if (clean) weigh_doubt(rivals);
   std::stable_sort(rivals.begin() + 1, rivals.end(),
                    [](const Rival& a, const Rival& b) { return a.log_weight > b.log_weight; });
   std::vector<double> logs;
@@ -136,6 +150,7 @@ WeighedClaim claim_one(const Inquiry& inquiry, const Analysis& analysis, const s
     mass += cause.probability;
     cause.p_value = analysis.alarm.detector->candidate_p(single.candidate, cause.gain);
     add_once(claim.ambiguity_set, cause.id);
+    if (cause.amplitude.at_bound || !cause.amplitude.plausible) claim.doubted.insert({cause.id});
     claim.rivals.push_back(*single.best);
     claim.causes.push_back(std::move(cause));
     explanations.push_back({single.direction});
@@ -149,9 +164,9 @@ WeighedClaim claim_one(const Inquiry& inquiry, const Analysis& analysis, const s
 }
 
 WeighedClaim claim_several(const Inquiry& inquiry, const Analysis& analysis, const std::vector<Group>& groups,
-                           const std::vector<Single>& singles) {
+                           const std::vector<Single>& singles, bool clean) {
   const Group& best = groups.front();
-  const std::vector<Rival> rivals = rivals_of(groups, singles);
+  const std::vector<Rival> rivals = rivals_of(inquiry, analysis, groups, singles, clean);
   const std::vector<std::string> own = ids_of(best.additions);
   Claim claim;
   claim.named = best.additions.size();
@@ -171,6 +186,7 @@ WeighedClaim claim_several(const Inquiry& inquiry, const Analysis& analysis, con
       continue;
     }
     for (const std::string& id : ids) add_once(claim.ambiguity_set, id);
+    if (!rival.credible) claim.doubted.insert(ids);
     if (rival.group != &best) claim.alternatives.push_back(ids);
     claim.rivals.push_back(rival.refit());
     explanations.push_back(rival.directions());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Claim {
   std::vector<std::string> ambiguity_set;
   std::vector<std::vector<std::string>> look_alikes;   ///< the ambiguity set by what looks alike; empty for groups
   std::vector<std::vector<std::string>> alternatives;  ///< to a group that is named: what rivals it, likeliest first
+  /// Explanations of the set with an amplitude at its bound or beyond what is plausible, by their ids.
+  std::set<std::vector<std::string>> doubted;
+  std::vector<std::string> in_words;  ///< the set where ids do not say it: with places; else empty
   std::optional<Refit> best;
   std::vector<Refit> rivals;  ///< the best, and what explains the misfit as well
   std::optional<Rejected> best_rejected;
@@ -37,8 +41,9 @@ struct WeighedClaim {
 WeighedClaim claim_one(const Inquiry& inquiry, const Analysis& analysis, const std::vector<Single>& singles,
                        const std::vector<RankedMechanism>& ranking);
 
-/// The likeliest group, and beside it groups as large and single mechanisms, which are likelier before the data.
+/// The likeliest group, and beside it groups as large and single mechanisms, which are likelier before the data. Where
+/// it is `clean`, it leaves only noise: beside it what is not credible weighs a twentieth of it at most, if it is.
 WeighedClaim claim_several(const Inquiry& inquiry, const Analysis& analysis, const std::vector<Group>& groups,
-                           const std::vector<Single>& singles);
+                           const std::vector<Single>& singles, bool clean = true);
 
 }  // namespace tunica::diagnosis

@@ -12,8 +12,6 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr double odds_against = 20;
-
 struct Explained {
   double* log_weight;
   const Refit* refit;

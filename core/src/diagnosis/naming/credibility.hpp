@@ -7,6 +7,8 @@
 
 namespace tunica::diagnosis {
 
+inline constexpr double odds_against = 20;  ///< an amplitude that is not credible
+
 /// Whether every amplitude of a refit is plausible and off its bound.
 bool is_credible(const Inquiry& inquiry, const Analysis& analysis, const Refit& refit,
                  const std::vector<std::size_t>& directions);

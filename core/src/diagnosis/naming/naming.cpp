@@ -97,7 +97,7 @@ class Contest {
     return {claim_one(inquiry_, analysis_, singles_, ranking_), p_after, clean};
   }
   [[nodiscard]] Choice several(const std::vector<Group>& groups, double p_after) const {
-    return {claim_several(inquiry_, analysis_, groups, singles_), p_after, is_clean(p_after)};
+    return {claim_several(inquiry_, analysis_, groups, singles_, is_clean(p_after)), p_after, is_clean(p_after)};
   }
 
   /// Where a budget with a cheaper method follows, several are fitted together beside one that takes half of the

@@ -313,7 +313,7 @@ json diagnosis_json(const Diagnosis& d) {
   if (d.prospects.gain) result[key::gain] = gain_json(*d.prospects.gain);
   if (!evidence.gross.empty()) result[key::left_out] = gross_json(evidence.gross);
   if (!claim.look_alikes.empty()) result[key::look_alikes] = claim.look_alikes;
-  if (!claim.causes.empty()) result[key::explanations] = explanations(claim);
+  if (!claim.causes.empty() || !claim.in_words.empty()) result[key::explanations] = explanations(claim);
   if (explanation.unlisted) result[key::unlisted] = true;
   if (claim.best) {
     result[key::p_after] = explanation.p_after;

@@ -300,6 +300,11 @@ std::string not_tried(const std::vector<Detectable>& detectable) {
                                    fmt::join(ids, ", "));
 }
 
+/// After an explanation of the set that stays in it and is not believed.
+const char* doubt_of(const Claim& claim, const std::vector<std::string>& ids) {
+  return claim.doubted.contains(ids) ? " (beyond belief)" : "";
+}
+
 }  // namespace
 
 std::string rivalry(const std::vector<std::string>& all) {
@@ -308,18 +313,21 @@ std::string rivalry(const std::vector<std::string>& all) {
 }
 
 std::vector<std::string> explanations(const Claim& claim) {
+  if (!claim.in_words.empty()) return claim.in_words;
   std::vector<std::string> all;
   for (const auto& alike : claim.look_alikes) {
-    all.push_back(alike.front());
-    if (alike.size() > 1)
-      all.back() += fmt::format(" (or {}, much the same here)", fmt::join(alike.begin() + 1, alike.end(), ", "));
+    all.push_back(alike.front() + doubt_of(claim, {alike.front()}));
+    std::vector<std::string> others;
+    for (std::size_t k = 1; k < alike.size(); ++k) others.push_back(alike[k] + doubt_of(claim, {alike[k]}));
+    if (!others.empty()) all.back() += fmt::format(" (or {}, much the same here)", fmt::join(others, ", "));
   }
   if (claim.named > 1) {
     std::vector<std::string> together;
     for (std::size_t k = 0; k < claim.named; ++k) together.push_back(claim.causes[k].id);
-    all.push_back(fmt::format("{}", fmt::join(together, " with ")));
+    all.push_back(fmt::format("{}{}", fmt::join(together, " with "), doubt_of(claim, together)));
     for (const auto& ids : claim.alternatives)
-      all.push_back(ids.size() == 1 ? ids.front() + " alone" : fmt::format("{}", fmt::join(ids, " with ")));
+      all.push_back((ids.size() == 1 ? ids.front() + " alone" : fmt::format("{}", fmt::join(ids, " with "))) +
+                    doubt_of(claim, ids));
   }
   return all.empty() ? claim.ambiguity_set : all;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -49,14 +50,43 @@ std::optional<NextExperiment> confirming(const Inquiry& inquiry, const Evidence&
   return next.description.empty() ? std::nullopt : std::optional(next);
 }
 
+std::vector<std::string> members_of(const Refit& rival) {
+  std::vector<std::string> ids;
+  for (const Addition& addition : rival.additions) ids.push_back(addition.id);
+  return ids;
+}
+
+/// What is measured next is decided by explanations with amplitudes that are believed; by all where these are no two.
+std::vector<const Refit*> deciding(const Claim& claim) {
+  std::vector<const Refit*> all, believed;
+  for (const Refit& rival : claim.rivals) {
+    all.push_back(&rival);
+    if (!claim.doubted.contains(members_of(rival))) believed.push_back(&rival);
+  }
+  return believed.size() > 1 ? believed : all;
+}
+
+/// The set without what only explanations have that are not believed.
+std::vector<std::string> worth_switching(const Claim& claim) {
+  std::set<std::string> doubted;
+  for (const Refit& rival : claim.rivals)
+    if (const auto ids = members_of(rival); claim.doubted.contains(ids)) doubted.insert(ids.begin(), ids.end());
+  for (const Refit& rival : claim.rivals)
+    if (const auto ids = members_of(rival); !claim.doubted.contains(ids))
+      for (const std::string& id : ids) doubted.erase(id);
+  std::vector<std::string> ids = claim.ambiguity_set;
+  std::erase_if(ids, [&](const std::string& id) { return doubted.contains(id); });
+  return ids.empty() ? claim.ambiguity_set : ids;
+}
+
 /// With several.
 NextExperiment separating(const Inquiry& inquiry, const Evidence& evidence, const Claim& claim) {
   NextExperiment next;
   next.separates = claim.ambiguity_set;
-  const std::string switches = isolating(inquiry, claim.ambiguity_set);
+  const std::string switches = isolating(inquiry, worth_switching(claim));
   std::vector<FittedRival> rivals;
-  for (const Refit& rival : claim.rivals)
-    rivals.push_back({rival.extension->assembly(), rival.extension->variables(), rival.fit});
+  for (const Refit* rival : deciding(claim))
+    rivals.push_back({rival->extension->assembly(), rival->extension->variables(), rival->fit});
   const auto found = separating_design(inquiry, evidence, rivals);
   if (!found) {
     next.description = fmt::format(
