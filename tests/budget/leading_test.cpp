@@ -87,6 +87,19 @@ TEST(Budget, SaysHowProbableAnUnlistedMisfitIsWhereItIsNotExcluded) {
               HasSubstr("; that it is a smooth misfit without a listed cause has probability 0.24"));
 }
 
+TEST(Budget, TakesTheProbabilityOfACauseFromItsPlace) {
+  const Answer answer = answered(0.4, 1.2, {"material", "rig", "file"}, [](budget::Budget& budget) {
+    budget::Contender elsewhere = budget.contenders.front();
+    elsewhere.place.tests = {"axial"};
+    elsewhere.share = 0.1;
+    elsewhere.probability = 2;  // made up, so that it would show
+    budget.contenders.push_back(elsewhere);
+  });
+  ASSERT_THAT(answer.diagnosis.explanation.claim.causes, SizeIs(Ge(1)));
+  EXPECT_EQ(answer.diagnosis.explanation.claim.causes.front().id, answer.budget.contenders.front().id);
+  EXPECT_LE(answer.diagnosis.explanation.claim.causes.front().probability, 1);
+}
+
 TEST(Budget, LeadsAfterACheaperMethodOnlyWithWhatTakesHalfWithTheTestsThemselves) {
   const auto with = [](std::optional<double> share) {
     return answered(0.4, 1.2, {"material", "rig", "file"}, [share](budget::Budget& budget) {
