@@ -2,6 +2,7 @@
 // What import asks of tubes, and proposes for them.
 #include <gmock/gmock.h>
 
+#include "assembly/record.hpp"
 #include "execution/folder.hpp"
 #include "importing/options.hpp"
 #include "support/loaded.hpp"
@@ -63,6 +64,30 @@ TEST(TubeOptions, SayWhetherATwistedSpecimenIsATubeThatMayHaveFibres) {
   EXPECT_EQ(model_for({{"outer_radius", "3 mm"}}), "ogden");
   EXPECT_EQ(model_for({{"outer_radius", "3 mm"}, {"thickness", "0.5 mm"}}), "hgo");
   EXPECT_EQ(model_for({{"inner_radius", "2 mm"}, {"outer_radius", "3 mm"}}), "hgo");
+}
+
+TEST(TubeOptions, SayNothingOfADiameterWithoutTheSizesThatMakeIt) {
+  experiment::TestEntry entry;
+  entry.options.set("inner_radius", 2.0);
+  entry.options.set("axial_stretch", 1.0);
+  data::Dataset dataset;
+  dataset.count = 1;
+  dataset.lines = {2};
+  dataset.abscissae = {{"pressure", {0.0}}};
+  data::Channel diameter;
+  diameter.observable = "outer_diameter";
+  diameter.values = {6.0};
+  dataset.channels = {diameter};
+  const auto findings = [&] {
+    std::vector<data::Finding> found;
+    assembly::look_at_unloaded_tube(entry, dataset, found);
+    return found.size();
+  };
+  EXPECT_EQ(findings(), 0u) << "the wall may be 1 mm";
+  entry.options.set("thickness", 0.5);
+  EXPECT_EQ(findings(), 1u);
+  entry.options.set("thickness", 1.0);
+  EXPECT_EQ(findings(), 0u);
 }
 
 }  // namespace

@@ -25,13 +25,14 @@ const std::vector<double>* column_of(const data::Dataset& dataset, std::string_v
   return nullptr;
 }
 
-/// Two of the three lengths give the third: outer = inner + thickness.
+/// Two of the three lengths give the third: outer = inner + thickness. 0 where a type has other options.
 double unloaded_diameter(const experiment::TestEntry& entry, bool outer) {
   const double outer_radius = option_of(entry, "outer_radius"), inner_radius = option_of(entry, "inner_radius");
   double thickness = option_of(entry, "thickness");
   for (const experiment::LayerEntry& layer : entry.layers) thickness += layer.thickness;
-  if (outer) return 2 * (outer_radius > 0 ? outer_radius : inner_radius + thickness);
-  return 2 * (inner_radius > 0 ? inner_radius : outer_radius - thickness);
+  const double given = outer ? outer_radius : inner_radius, other = outer ? inner_radius : outer_radius;
+  if (given > 0) return 2 * given;
+  return other > 0 && thickness > 0 ? 2 * (other + (outer ? thickness : -thickness)) : 0;
 }
 
 void look_at_diameter(const experiment::TestEntry& entry, const data::Dataset& dataset, const std::string& name,

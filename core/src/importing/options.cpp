@@ -66,10 +66,11 @@ void add_layout(Json& data, const Answers& answers) {
   if (!answers.rows.empty()) data["rows"] = answers.rows;
 }
 
-bool has_wall(const TestFactory& factory, const Json& entry) {
-  for (const char* const size : {"inner_radius", "outer_radius", "thickness"})
-    if (!declares(factory, size)) return false;
-  return entry.contains("inner_radius") || entry.contains("thickness");
+Specimen specimen_of(const TestFactory& factory, const Json& entry) {
+  const bool of_tubes =
+      declares(factory, "inner_radius") && declares(factory, "outer_radius") && declares(factory, "thickness");
+  const bool has_wall = entry.contains("inner_radius") || entry.contains("thickness");
+  return factory.specimen == Specimen::other && of_tubes && has_wall ? Specimen::tube : factory.specimen;
 }
 
 void add_tube_options(Json& entry, const TestFactory& factory, const Answers& answers, bool stretch_in_column,

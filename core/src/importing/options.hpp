@@ -18,8 +18,8 @@ Json option_value(const TestFactory& factory, const std::string& key, const std:
 data::TableLayout layout_of(const Answers& answers);
 void add_layout(Json& data, const Answers& answers);
 
-/// Whether an entry of a type for tubes and solid cylinders gives a wall, and so is a tube.
-bool has_wall(const TestFactory& factory, const Json& entry);
+/// That of the type; an entry of a type for tubes and solid cylinders is a tube where it gives a wall.
+Specimen specimen_of(const TestFactory& factory, const Json& entry);
 
 /// The sizes of a tube, and its axial stretch unless a column has that, as far as the type declares them; what is
 /// missing is asked.

@@ -45,13 +45,7 @@ class File {
                                  : fmt::format("'{}'", csv_.delimiter));
   }
 
-  /// After tests().
-  [[nodiscard]] Specimen specimen() const {
-    return factory_.specimen == Specimen::other && has_wall_ ? Specimen::tube : factory_.specimen;
-  }
-
-  /// Name and entry of each test.
-  std::vector<std::pair<std::string, Json>> tests(const std::filesystem::path& folder) {
+  TestsOfFile tests(const std::filesystem::path& folder) {
     std::error_code error;
     const auto relative = std::filesystem::relative(file_, folder, error);
     Json common = Json::object();
@@ -62,7 +56,7 @@ class File {
     add_compression(common);
     const bool sign_known = factory_.specimen != Specimen::strip || common.contains("compression") || said_.tension;
     const Json where = conditions();
-    std::vector<std::pair<std::string, Json>> found;
+    TestsOfFile found{factory_.specimen, {}};
     for (const std::string& value : values_of_each()) {
       Json own = where, data = common;
       if (!answers_.each.empty()) own[answers_.each] = value;
@@ -77,7 +71,8 @@ class File {
       const std::string name = as_name(answers_.each.empty() ? file_.stem().string() : value);
       add_options(entry, name);
       entry["data"] = data;
-      found.emplace_back(name, std::move(entry));
+      found.specimen = specimen_of(factory_, entry);
+      found.tests.emplace_back(name, std::move(entry));
     }
     return found;
   }
@@ -374,7 +369,6 @@ class File {
           break;
         }
     if (factory_.specimen == Specimen::tube) add_tube_options(entry, factory_, answers_, stretched, ask_);
-    has_wall_ = has_wall(factory_, entry);
   }
 
   std::filesystem::path file_;
@@ -389,7 +383,6 @@ class File {
   Json units_ = Json::object();
   std::string cycle_column_, measure_;
   std::string direction_;  ///< from the table of specimens
-  bool has_wall_ = false;
   SignWords said_;
 };
 
@@ -398,9 +391,7 @@ class File {
 TestsOfFile tests_of_file(const std::filesystem::path& file, const Answers& answers,
                           const std::filesystem::path& folder, const plugins::Catalogue& catalogue, const Ask& ask,
                           std::vector<std::string>& notes) {
-  File reading(file, answers, catalogue, ask, notes);
-  auto tests = reading.tests(folder);
-  return {reading.specimen(), std::move(tests)};
+  return File(file, answers, catalogue, ask, notes).tests(folder);
 }
 
 }  // namespace tunica::importing
