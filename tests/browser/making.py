@@ -15,9 +15,12 @@ BUDGETS = {"lamb_aorta": {}, "treloar": {}, "known_solution": {}, "lamb_aorta_st
            "cn_pressurisation": {"evaluations": 8, "realisations": 1, "starts": 1, "elements": [3, 6]},
            "optimizer_comparison": {**FEW, "evaluations": 800, "realisations": 10},
            "calculix": {"evaluations": 2, "tests": ["strip"], "certificate": False, "fixed": {"c20": -8, "c30": 1.2}},
-           "cn_guided": {**FEW, "evaluations": 60, "certificate": False},
+           "cn_guided": {**FEW, "evaluations": 20, "starts": 1, "certificate": False},
            "es_assessment": {**FEW, "realisations": 20}, "murine_tube": {**FEW, "evaluations": 60, "starts": 1},
-           "mechanisms": {**FEW, "starts": 1, "evaluations": 40}}
+           "mechanisms": {**FEW, "starts": 1, "evaluations": 40},
+           # A field is fitted to all its frames: a coarse mesh and two evaluations have every picture.
+           "plate": {"evaluations": 2, "starts": 1, "size": "2.5 mm", "certificate": False},
+           "time_protocols": {"evaluations": 10, "starts": 1, "certificate": False}}
 
 
 def tunica(options, *arguments):
@@ -46,6 +49,8 @@ def lessened(value, budget):
             made[key] = min(made[key], budget[name])
     if "elements" in made and "elements" in budget:
         made.update(elements=budget["elements"], element="quadrilateral_9")
+    if "size" in made and "size" in budget:
+        made["size"] = budget["size"]
     return made
 
 

@@ -1,33 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tunica/plugin.hpp"
 
-#include <limits>
-
 #include <fmt/core.h>
-#include <pagmo/algorithms/cmaes.hpp>
-#include <pagmo/algorithms/de1220.hpp>
-#include <pagmo/algorithms/pso_gen.hpp>
-#include <pagmo/algorithms/sade.hpp>
-#include <pagmo/algorithms/sga.hpp>
-#include <pagmo/batch_evaluators/member_bfe.hpp>
-#include <pagmo/bfe.hpp>
-#include <pagmo/problem.hpp>
 
-#include "pagmo_optimizer.hpp"
+#include "part.hpp"
+#include "tunica/error.hpp"
 
 namespace tunica::pagmo_plugin {
 namespace {
-
-// Generations are not what ends a search: see Search.
-constexpr unsigned generations = std::numeric_limits<unsigned>::max() / 4;
-
-/// What pagmo calls a user-defined batch evaluator.
-struct Generation {
-  Search* search = nullptr;
-  pagmo::vector_double operator()(const pagmo::problem& /*problem*/, const pagmo::vector_double& xs) const {
-    return search->fitnesses(xs);
-  }
-};
 
 std::vector<Option> with_common(std::vector<Option> own) {
   const std::vector<Option> common = {
@@ -45,18 +25,12 @@ std::vector<Option> with_common(std::vector<Option> own) {
 }
 
 /// `least`: individuals that pagmo insists on.
-std::unique_ptr<Optimizer> make(const Options& given, std::int64_t least,
-                                std::function<pagmo::algorithm(unsigned seed, Search& search)> algorithm) {
+std::unique_ptr<Optimizer> make(const Options& given, std::int64_t least, Method method) {
   if (const std::int64_t population = given.integer("population"); population > 0 && population < least)
     throw InputError(
         fmt::format("a population of {} is too small, {} is the least; 0 leaves it to the number of parameters",
                     population, least));
-  return std::make_unique<PagmoOptimizer>(Settings{.algorithm = std::move(algorithm),
-                                                   .population = given.count("population"),
-                                                   .restarts = given.count("restarts"),
-                                                   .restart_growth = given.number("restart_growth"),
-                                                   .stall_generations = given.count("stall_generations"),
-                                                   .tolerance = given.number("tolerance")});
+  return search_with(method, given);
 }
 
 OptimizerFactory differential_evolution() {
@@ -70,12 +44,7 @@ OptimizerFactory differential_evolution() {
           .options = with_common({Option::choice("variant", {"sade", "de1220"}, "de1220",
                                                  "sade adapts its rates, de1220 its mutation strategies as well.")}),
           .create = [](const Options& given) {
-            const bool sade = given.text("variant") == "sade";
-            return make(given, 7, [sade](unsigned seed, Search&) {
-              return sade ? pagmo::algorithm(pagmo::sade(generations, 2, 1, 0, 0, false, seed))
-                          : pagmo::algorithm(pagmo::de1220(generations, pagmo::de1220_statics<void>::allowed_variants,
-                                                           1, 0, 0, false, seed));
-            });
+            return make(given, 7, given.text("variant") == "sade" ? Method::sade : Method::de1220);
           }};
 }
 
@@ -86,13 +55,7 @@ OptimizerFactory particle_swarm() {
               "J. Kennedy, R. Eberhart, IEEE Int. Conf. Neural Networks (1995) 1942-1948; M. Clerc, J. Kennedy, "
               "IEEE Trans. Evol. Comput. 6 (2002) 58-73; F. Biscani, D. Izzo (2020).",
           .options = with_common({}),
-          .create = [](const Options& given) {
-            return make(given, 2, [](unsigned seed, Search& search) {
-              pagmo::pso_gen swarm(generations, 0.7298, 2.05, 2.05, 0.5, 5, 2, 4, false, seed);
-              swarm.set_bfe(pagmo::bfe(Generation{&search}));
-              return pagmo::algorithm(std::move(swarm));
-            });
-          }};
+          .create = [](const Options& given) { return make(given, 2, Method::pso); }};
 }
 
 OptimizerFactory genetic_algorithm() {
@@ -102,12 +65,7 @@ OptimizerFactory genetic_algorithm() {
               "derivatives.",
           .reference = "K. Deb, R. B. Agrawal, Complex Systems 9 (1995) 115-148; F. Biscani, D. Izzo (2020).",
           .options = with_common({}),
-          .create = [](const Options& given) {
-            return make(given, 2, [](unsigned seed, Search&) {
-              return pagmo::algorithm(
-                  pagmo::sga(generations, 0.9, 10, 0.1, 50, 2, "sbx", "polynomial", "tournament", seed));
-            });
-          }};
+          .create = [](const Options& given) { return make(given, 2, Method::ga); }};
 }
 
 OptimizerFactory covariance_matrix_adaptation() {
@@ -115,11 +73,7 @@ OptimizerFactory covariance_matrix_adaptation() {
           .doc = "CMA-ES of pagmo with its way of keeping bounds, for comparison with cma_es; needs no derivatives.",
           .reference = "N. Hansen, The CMA evolution strategy: a comparing review (2006); F. Biscani, D. Izzo (2020).",
           .options = with_common({}),
-          .create = [](const Options& given) {
-            return make(given, 5, [](unsigned seed, Search&) {
-              return pagmo::algorithm(pagmo::cmaes(generations, -1, -1, -1, -1, 0.3, 0, 0, false, true, seed));
-            });
-          }};
+          .create = [](const Options& given) { return make(given, 5, Method::cmaes); }};
 }
 
 }  // namespace
