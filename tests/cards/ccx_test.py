@@ -64,16 +64,19 @@ class Cards(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = pathlib.Path(scratch.name)
 
-    def rubber(self):
-        run("run", source / "examples/treloar/experiment.json", "-o", self.folder / "rubber")
-        return self.folder / "rubber"
+    @classmethod
+    def setUpClass(cls):
+        """The fits to Treloar's data, which several cards are made of."""
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.rubber = pathlib.Path(scratch.name) / "rubber"
+        run("run", source / "examples/treloar/experiment.json", "-o", cls.rubber)
 
     def compare(self, target, ratio, factor, units, largest_stretch, limit):
-        fit = self.rubber()
         for model in ISOTROPIC:
-            card = run("export", fit, "--to", target, "--run", model + "/lm", "--units", units, *ratio)
+            card = run("export", self.rubber, "--to", target, "--run", model + "/lm", "--units", units, *ratio)
             for protocol in ccx_cube.FACES:
-                stretches, expected = curve(fit, protocol, model + "/lm", ["stretch [1]", "stress.predicted [kPa]"])
+                stretches, expected = curve(self.rubber, protocol, model + "/lm", ["stretch [1]", "stress.predicted [kPa]"])
                 kept = [row for row in zip(stretches, expected) if row[0] <= largest_stretch]
                 found = ccx_cube.nominal_stress(self.folder, card, protocol, [row[0] for row in kept])
                 with self.subTest(target=target, model=model, protocol=protocol):
@@ -138,7 +141,7 @@ class Cards(unittest.TestCase):
             self.reproduce(self.sheet("mooney_rivlin", values, terms=terms), "--bulk-ratio", "1e4" if terms == 9 else "1e5")
 
     def test_the_bulk_modulus_is_that_of_the_card(self):
-        fits = {"calculix": (self.rubber(), ["--run", "neo_hooke/lm"]), "fibres": (self.sheet("hgo"), [])}
+        fits = {"calculix": (self.rubber, ["--run", "neo_hooke/lm"]), "fibres": (self.sheet("hgo"), [])}
         for name, (fit, words) in fits.items():
             card = run("export", fit, "--to", "calculix", "--units", "mm-mN-kPa", *words)
             stated = float(" ".join(card.replace("\n**", " ").split()).split("bulk modulus is ")[1].split()[0])

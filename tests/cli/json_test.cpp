@@ -72,14 +72,6 @@ TEST(Json, OfDescribeHasWhatTheObjectDeclares) {
   EXPECT_FALSE(offset.at("look_alikes").empty());
 }
 
-TEST(Json, OfDescribeParsesForEveryName) {
-  for (const auto& name : lines_of(trial::tunica({"list", "--names"}, json_folder.path()).out)) {
-    const json described = printed({"describe", name, "--json"});
-    ASSERT_GE(described.size(), 1u);
-    EXPECT_EQ(described.begin()->at("name"), name);
-  }
-}
-
 TEST(Json, OfCheckHasTheSetUpAndItsVerdict) {
   const trial::Bench bench;
   const auto ended = bench.tunica({"check", "experiment.json", "--json"});

@@ -5,6 +5,7 @@
 Recorded documents of tests/references have lost their counts, so there no key is required. Ends with 77 where the
 module jsonschema (Debian: python3-jsonschema) is missing."""
 import copy
+import functools
 import json
 import pathlib
 import shutil
@@ -37,9 +38,14 @@ def without_required(part):
     return [without_required(one) for one in part] if isinstance(part, list) else part
 
 
-def faults(document, file, name, every_key=True):
+@functools.lru_cache(maxsize=None)
+def validator_of(file, name, every_key):
     schema = SCHEMAS.bundle(file, name)
-    validator = jsonschema.Draft7Validator(schema if every_key else without_required(schema))
+    return jsonschema.Draft7Validator(schema if every_key else without_required(schema))
+
+
+def faults(document, file, name, every_key=True):
+    validator = validator_of(file, name, every_key)
     return [f"/{'/'.join(map(str, fault.absolute_path))}: {fault.message[-200:]}" for fault in validator.iter_errors(document)]
 
 
@@ -140,7 +146,8 @@ class Documents(unittest.TestCase):
         for kind in ("models", "tests", "optimizers", "mechanisms"):
             for one in shelves[kind]:
                 with self.subTest(one["name"]):
-                    self.answer("description", "describe", one["name"], "--json")
+                    described = self.answer("description", "describe", one["name"], "--json")
+                    self.assertEqual(one["name"], next(iter(described.values()))["name"])
         self.answer("plugin_check", "plugin", "check", str(PLUGIN), "--json", "--only", "concurrent_calls_agree")
 
     def test_stability_and_simulation(self):

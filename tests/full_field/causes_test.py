@@ -18,12 +18,13 @@ with tempfile.TemporaryDirectory() as scratch:
     bench = causes.Bench(pathlib.Path(sys.argv[1]), pathlib.Path(scratch), 0.02, (8, 6))
     for seed, (cause, amplitude, direction) in enumerate(HIDDEN, 1):
         folder = pathlib.Path(scratch) / str(cause)
-        bench.write(folder, bench.frames(cause, amplitude, direction), "clamped", seed)
+        frames = bench.frames(cause, amplitude, direction)
+        bench.write(folder, frames, "clamped", seed)
         found = bench.call(folder, "diagnose", "--quick")["diagnosis"]
         if cause is None:
             for subset in (0, 6):
                 again = folder / str(subset)
-                bench.write(again, bench.frames(None, 0, 0), "clamped", seed, subset)
+                bench.write(again, frames, "clamped", seed, subset)
                 warnings = bench.call(again, "run")["warnings"]
                 assert any("err together" in one for one in warnings) == (subset > 0), (subset, warnings)
             assert found["verdict"] == "nothing_detected", found["verdict"]
