@@ -53,7 +53,7 @@ constexpr std::string_view otherwise = " (or pass --allow-world-writable-plugins
 std::string distrust(const fs::path& path, std::string_view who, std::string_view harm, bool sticky_is_fine) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return {};
-  const std::vector<uid_t> owners = trusted_owners();
+  static const std::vector<uid_t> owners = trusted_owners();
   if (std::find(owners.begin(), owners.end(), status.st_uid) == owners.end())
     return fmt::format(
         "{} belongs to the user {}, who could {}; expected one that belongs to you or to root; take a copy of your "
@@ -79,8 +79,8 @@ std::string distrust(const fs::path& path, std::string_view who, std::string_vie
 std::string distrust(const fs::path& file) {
   std::error_code error;
   if (std::string reason = distrust(file, "the file", "run code as you", false); !reason.empty()) return reason;
-  const fs::path real = fs::canonical(file, error);
-  for (const fs::path& place : {fs::absolute(file), real}) {
+  const fs::path stated = fs::absolute(file), real = fs::canonical(file, error);
+  for (const fs::path& place : stated == real ? std::vector{stated} : std::vector{stated, real}) {
     fs::path folder = place.parent_path();
     if (std::string reason = distrust(folder, "its folder", "replace it", false); !reason.empty()) return reason;
     while (folder.has_relative_path()) {
