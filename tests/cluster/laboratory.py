@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A made-up cohort, and the program that fits it: what the tests of shards and queues share."""
+import atexit
 import json
 import math
 import os
 import pathlib
 import random
+import shutil
 import subprocess
+import tempfile
 
 
 def make_cohort(folder, specimens, realisations=1, seed=5):
@@ -44,6 +47,20 @@ def make_cohort(folder, specimens, realisations=1, seed=5):
     (folder / "experiment.json").write_text(json.dumps(experiment, indent=1), encoding="utf-8")
     (folder / "cohort.json").write_text(json.dumps(cohort, indent=1), encoding="utf-8")
     return folder / "cohort.json"
+
+
+def small(executable, *plugins):
+    """A copy of the program that has only these plugins: it starts in a third of the time, and tests start it hundreds
+    of times."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="tunica"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    executable = pathlib.Path(executable).resolve()
+    shelf = folder / "lib/tunica/plugins"
+    shelf.mkdir(parents=True)
+    for name in plugins:
+        shutil.copy(executable.parent.parent / f"lib/tunica/plugins/{name}.so", shelf)
+    (folder / "bin").mkdir()
+    return shutil.copy(executable, folder / "bin")
 
 
 class Program:

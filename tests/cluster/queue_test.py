@@ -11,8 +11,9 @@ import tempfile
 
 sys.dont_write_bytecode = True  # nothing is left beside the sources
 HERE = pathlib.Path(__file__).resolve().parent
-from laboratory import Program, expect, expect_same, make_cohort, run_cases
+from laboratory import Program, expect, expect_same, make_cohort, run_cases, small
 
+executable = small(sys.argv[1], "ceres_lm", "es", "gho", "uniaxial")
 room = tempfile.TemporaryDirectory(suffix=" of it's %a")  # a name that a careless shell or sbatch takes amiss
 folder = pathlib.Path(room.name)
 make_cohort(folder, 20)
@@ -21,7 +22,7 @@ commands.mkdir()
 for name in ("sbatch", "squeue", "sacct", "scancel", "scontrol"):
     (commands / name).write_text(f"#!/bin/sh\nexec '{sys.executable}' '{HERE}/fake_slurm.py' {name} \"$@\"\n", encoding="utf-8")
     (commands / name).chmod(0o755)
-Program(sys.argv[1], folder)("cohort", "cohort.json", "-o", "whole", "--quiet", "--no-reports")
+Program(executable, folder)("cohort", "cohort.json", "-o", "whole", "--quiet", "--no-reports")
 
 
 class Cluster:
@@ -32,7 +33,7 @@ class Cluster:
         self.folder.mkdir()
         os.environ["FAKE_SLURM"] = str(self.folder)
         self.results = self.folder / "r"
-        self.tunica = Program(sys.argv[1], folder, {"PATH": f"{commands}:{os.environ['PATH']}"})
+        self.tunica = Program(executable, folder, {"PATH": f"{commands}:{os.environ['PATH']}"})
 
     def __call__(self, verb, *words, code=0):
         return self.tunica("cohort", verb, "cohort.json", "-o", str(self.results), *words, code=code)
@@ -235,7 +236,7 @@ def the_pilot_states_what_it_measured_and_keeps_its_records():
 
 def a_dry_run_needs_no_slurm():
     cluster = Cluster("dry")
-    without = Program(sys.argv[1], folder, {"PATH": "/nowhere"})
+    without = Program(executable, folder, {"PATH": "/nowhere"})
     said = without("cohort", "submit", "cohort.json", "-o", str(cluster.results), "--slurm", "--shards", "3", "--dry-run")
     expect("--array=1-3" in said, said)
     said = without("cohort", "submit", "cohort.json", "-o", str(cluster.results), "--slurm", "--shards", "3", code=2)
@@ -245,7 +246,7 @@ def a_dry_run_needs_no_slurm():
 def paths_of_plugins_are_carried_over_absolute():
     cluster = Cluster("plugins")
     (folder / "own plugins").mkdir()
-    program = Program(sys.argv[1], folder, {"TUNICA_PLUGIN_PATH": "commands:/elsewhere"})
+    program = Program(executable, folder, {"TUNICA_PLUGIN_PATH": "commands:/elsewhere"})
     program("--plugin-path", "own plugins", "cohort", "submit", "cohort.json", "-o", str(cluster.results), "--slurm",
             "--shards", "1", "--dry-run")
     script = (cluster.results / "slurm/shard.sh").read_text(encoding="utf-8")

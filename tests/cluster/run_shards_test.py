@@ -10,8 +10,9 @@ import tempfile
 import time
 
 sys.dont_write_bytecode = True
-from laboratory import Program, expect, make_cohort, run_cases
+from laboratory import Program, expect, make_cohort, run_cases, small
 
+executable = small(sys.argv[1], "ceres_lm", "channel_errors", "es", "gho", "record_errors", "uniaxial")
 root = pathlib.Path(tempfile.mkdtemp(prefix="shards"))
 CLOCK = ("time", "second", "date", "checksum")  # columns and keys that no two starts share
 
@@ -26,7 +27,7 @@ def laboratory(name):
                           {"model": "gho", "optimizer": "lm", "realisations": 3}]
     experiment["analysis"] = {"bootstrap": {"draws": 40}}
     file.write_text(json.dumps(experiment), encoding="utf-8")
-    return folder, Program(sys.argv[1], folder)
+    return folder, Program(executable, folder)
 
 
 def timeless(value):

@@ -9,13 +9,14 @@ import tempfile
 import time
 
 sys.dont_write_bytecode = True  # nothing is left beside the sources
-from laboratory import Program, expect, expect_same, make_cohort, records, run_cases
+from laboratory import Program, expect, expect_same, make_cohort, records, run_cases, small
 
+executable = small(sys.argv[1], "ceres_lm", "es", "gho", "uniaxial")
 room = tempfile.TemporaryDirectory()
 folder = pathlib.Path(room.name)
 make_cohort(folder, 15)
 make_cohort(folder / "long", 8, realisations=8)
-tunica = Program(sys.argv[1], folder)
+tunica = Program(executable, folder)
 tunica("cohort", "cohort.json", "-o", "whole", "--no-reports", "--quiet")
 
 
@@ -53,7 +54,7 @@ def two_copies_of_a_shard_at_once_do_no_harm():
 
 
 def a_killed_shard_leaves_whole_records_and_starts_again():
-    long = Program(sys.argv[1], folder / "long")
+    long = Program(executable, folder / "long")
     long("cohort", "cohort.json", "-o", "whole", "--no-reports", "--quiet")
     results = folder / "long/killed"
     kills, draw = 0, random.Random(7)

@@ -23,6 +23,7 @@
 #include <thread>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -58,6 +59,12 @@ int overflow(int depth) {
 /// Memory that is used and never given back. Without the pointer the compiler would leave it out.
 void* volatile last_taken = nullptr;
 void take(std::size_t bytes) { last_taken = std::memset(std::malloc(bytes), 1, bytes); }
+/// The same without the time that the kernel needs for each small page.
+void take_large_pages(std::size_t bytes) {
+  void* taken = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ::madvise(taken, bytes, MADV_HUGEPAGE);
+  last_taken = std::memset(taken, 1, bytes);
+}
 
 /// A process that keeps every pipe open, for a minute at most.
 void leave_a_process() {
@@ -151,7 +158,7 @@ void misbehave(const std::string& how) {
   if (how == "overflows_the_stack") overflow(0);
   if (how == "leaks") take(100'000);
   if (how == "allocates_without_end")
-    for (;;) take(1'000'000);
+    for (;;) take_large_pages(std::size_t{1} << 23);
   if (how == "is_slow") std::this_thread::sleep_for(std::chrono::milliseconds(10));
   if (how == "loops")
     for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -5,10 +5,10 @@ import pathlib
 import sys
 import tempfile
 
-from laboratory import Program, expect
+from laboratory import Program, expect, small
 
 root = pathlib.Path(tempfile.mkdtemp(prefix="hostile"))
-plugin = sys.argv[2]
+executable, plugin = small(sys.argv[1], "ceres_lm", "es", "neo_hooke", "uniaxial"), sys.argv[2]
 
 
 def strip():
@@ -37,7 +37,7 @@ def laboratory(name, how="honest", since=0, search="lm", search_does="honest", t
         hostile = {"h": {"type": "hostile_strip", "how": test_does, "data": experiment["tests"]["t"]["data"]}}
         experiment["runs"][0]["tests"] = hostile
     (folder / "experiment.json").write_text(json.dumps(experiment), encoding="utf-8")
-    program = Program(sys.argv[1], folder)
+    program = Program(executable, folder)
     program.words += ["--plugin-path", plugin, "--call-limit", "1"]
     return folder, program
 
