@@ -14,7 +14,9 @@ from checks import (check_drawn, check_each_kind, check_intervals_apart, check_p
                     check_theme_and_paper, check_use)
 
 
-def look_at(browser, file, name, pictures):
+def look_at(browser, file, name, pictures, seen):
+    """On a desk, then on a telephone. `seen`: the kinds of charts that were on a telephone so far; where they are all of
+    this report's, one look is enough. None: both looks."""
     for width, scheme in ((1280, "light"), (400, "dark")):
         browser.look(width, scheme)
         figures, milliseconds = check_drawn(browser, file)
@@ -24,8 +26,13 @@ def look_at(browser, file, name, pictures):
             browser.screenshot(pictures / f"{name}_{width}_{scheme}.png")
         if width == 1280:
             first = browser.run("return document.documentElement.dataset.first") or milliseconds
-            said = f"{name}: {figures} charts of {check_each_kind(browser, file)} kinds in {milliseconds} ms, the first screen in {first}"
+            kinds = check_each_kind(browser, file)
+            said = f"{name}: {figures} charts of {len(kinds)} kinds in {milliseconds} ms, the first screen in {first}"
         check_quiet(browser, file)
+        if seen is not None and kinds <= seen:
+            break
+    if seen is not None:
+        seen |= kinds
     print(f"{said}, {file.stat().st_size // 1024} KiB")
 
 
@@ -36,6 +43,7 @@ def main():
     parser.add_argument("--source", type=pathlib.Path, required=True)
     parser.add_argument("--output", type=pathlib.Path, required=True)
     parser.add_argument("--pictures", action="store_true", help="keep a picture of every report, for people")
+    parser.add_argument("--every", action="store_true", help="look at every example on a telephone, too, not only at new kinds of charts")
     options = parser.parse_args()
     if not available():
         print("skipped: no browser; apt-get install chromium chromium-driver")
@@ -44,8 +52,11 @@ def main():
     downloads, pictures = options.output / "downloads", options.output / "screenshots"
     files = making.reports(options, options.output.resolve())
     with Browser(downloads.resolve()) as browser:
+        seen = set()
         for file in files:
-            look_at(browser, file, file.parent.name if file.name == "report.html" else file.stem, options.pictures and pictures)
+            name = file.parent.name if file.name == "report.html" else file.stem
+            example = (options.source / "examples" / name).exists() and not (options.every or options.pictures)
+            look_at(browser, file, name, options.pictures and pictures, seen if example else None)
         browser.look(1280, "light")
         lamb = options.output.resolve() / "lamb_aorta/report.html"
         check_use(browser, lamb, downloads)
