@@ -56,7 +56,7 @@ class Driver(unittest.TestCase):
 
     def write(self, name, text):
         file = self.build / "bin" / name
-        file.write_text(text)
+        file.write_text(text.replace("/usr/bin/env python3", f"{sys.executable} -SE"))  # starts at once
         file.chmod(0o755)
 
     def run_driver(self, named, *words):

@@ -26,8 +26,8 @@ while [ $# -gt 0 ]; do
     case $1 in
         --out) out=$2 ;;
         --set) set_of=$2 ;;
-        --cases) cases=$(echo "$2" | tr : -) ;;
-        --base) base=-$(echo "$*" | tr ' ' -); break ;;
+        --cases) cases=${2%:*}-${2#*:} ;;
+        --base) IFS=-; base=-$*; break ;;
     esac
     shift
 done
@@ -64,7 +64,7 @@ class Driver(unittest.TestCase):
 
     def write(self, name, text):
         file = self.build / "bin" / name
-        file.write_text(text)
+        file.write_text(text.replace("/usr/bin/env python3", f"{sys.executable} -SE"))  # starts at once
         file.chmod(0o755)
 
     def run_driver(self, *words):

@@ -10,6 +10,8 @@ seeds, which are fixed. Ends with 77 where emcee is missing (Debian: python3-emc
 import csv
 import json
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -68,8 +70,14 @@ def log_density(coordinates, known):
 
 
 def tunica(folder):
-    subprocess.run([PROGRAM, "run", FOLDER / "experiment.json", "-o", folder, "--posterior=40000", "--quiet",
-                    "--no-certificate"], check=True, stdout=subprocess.DEVNULL)
+    """The run of Ogden's model alone."""
+    shutil.copytree(FOLDER, folder.parent / "treloar")
+    experiment = folder.parent / "treloar/experiment.json"
+    text, others = re.subn(r'\n *\{"model": "(?!ogden)\w+", "optimizer": "lm"\},', "", experiment.read_text(encoding="utf-8"))
+    assert others == 4, f"{others} other runs in {FOLDER}/experiment.json; expected 4"
+    experiment.write_text(text, encoding="utf-8")
+    subprocess.run([PROGRAM, "run", experiment, "-o", folder, "--posterior=40000", "--quiet", "--no-certificate"], check=True,
+                   stdout=subprocess.DEVNULL)
     result = json.loads((folder / "result.json").read_text(encoding="utf-8"))
     run = next(run for run in result["runs"] if run["model"] == "ogden")
     draws = json.loads((folder / run["best"]["posterior"]["file"]).read_text(encoding="utf-8"))["posterior"]
