@@ -57,6 +57,10 @@ class Documents(unittest.TestCase):
         cls.folder = pathlib.Path(scratch.name) / "examples"
         shutil.copytree(SOURCE / "examples", cls.folder, ignore=shutil.ignore_patterns("*.html", "*.svg", "*.png"))
         shutil.copytree(SOURCE / "tests/references/experiments", cls.folder / "own")
+        plate = cls.folder / "plate/experiment.json"  # a check simulates the field once a derivative
+        fine = plate.read_text(encoding="utf-8")
+        plate.write_text(fine.replace('"size": "0.8 mm"', '"size": "2.5 mm"'), encoding="utf-8")
+        assert plate.read_text(encoding="utf-8") != fine, f"{plate} has another mesh"
 
     def tunica(self, *words, codes=(0,)):
         ended = subprocess.run([PROGRAM, *words], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
