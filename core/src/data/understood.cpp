@@ -4,6 +4,7 @@
 
 #include "data/quantities.hpp"
 #include "data/series.hpp"
+#include "data/words.hpp"
 #include "text/lists.hpp"
 
 namespace tunica::data {
@@ -12,7 +13,7 @@ namespace {
 using From = Quantity::Kind;
 
 std::string source_of(const Series::Column& column) {
-  return fmt::format("'{}'{}{}", column.name, column.unit.empty() ? "" : " in " + column.unit,
+  return fmt::format("'{}'{}{}", as_utf8(column.name), column.unit.empty() ? "" : " in " + column.unit,
                      column.turned ? ", which counts compression positive" : "");
 }
 
