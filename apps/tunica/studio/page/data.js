@@ -21,6 +21,9 @@ const more = [
   ["skip-lines", "Lines above the header", "found in the file where it is empty"]
 ];
 
+/** "10,5 mm" is 10.5 mm; "1,500 mm" may be 1.5 or 1500, and is left for the core to refuse. */
+const pointed = (text) => text.replace(/^(-?\d+),(\d{1,2}|\d{4,})(?=\D|$)/, "$1.$2");
+
 export async function dataPage(place, all, name) {
   const files = name.split("\n"), catalogue = await ask("catalogue");
   const texts = new Map(), asked = new Map(), used = new Map(), units = new Map();
@@ -34,7 +37,7 @@ export async function dataPage(place, all, name) {
       unit: [...units].filter(([, control]) => control.value.trim()).map(([column, control]) => `${column}=${control.value.trim()}`),
       compression: compression.value ? [compression.value] : []
     },
-    asked: Object.fromEntries([...asked].filter(([, one]) => one.shown && one.control.value.trim()).map(([option, one]) => [option, one.control.value.trim()])),
+    asked: Object.fromEntries([...asked].filter(([, one]) => one.shown && one.control.value.trim()).map(([option, one]) => [option, pointed(one.control.value.trim())])),
     output: output.value.trim()
   });
 

@@ -15,7 +15,7 @@ import { startPage } from "./start.js";
 const pages = { "": startPage, data: dataPage, model: materialPage, fit: fitPage, causes: causesPage, history: historyPage,
   cohort: cohortPage, sheet: sheetPage, file: editorPage };
 const steps = [["model", "Material"], ["fit", "Fit"], ["causes", "What is wrong"]];
-let leave = null;
+let leave = null, before = null;
 
 function stepsOf(kind, name) {
   if (kind === "data") return el("nav", { "aria-label": "Steps" }, el("ol", { class: "steps" }, el("li", {}, el("a", { href: location.hash, "aria-current": "step" }, el("b", {}, "1"), "Data"))));
@@ -50,6 +50,11 @@ async function show() {
   if (mine !== turn) return;
   place.replaceChildren(shown);
   const head = shown.querySelector("h1");
+  if (head && before !== null && before !== location.hash && !shown.contains(document.activeElement)) {
+    head.tabIndex = -1;  // a keyboard goes on from here, not from the top of the page
+    head.focus({ preventScroll: true });
+  }
+  before = location.hash;
   document.title = head ? `${head.textContent} – tunica studio` : "tunica studio";
   document.documentElement.dataset.shown = location.hash;
 }
