@@ -25,17 +25,25 @@ class EnergyScaledModel {
 
   /// The n rows of a path, in loading order.
   struct ScaledPath {
-    std::span<const double> parameters;  ///< of the whole model
-    std::span<const double> energy;      ///< W, kPa
-    std::span<const double> stress;      ///< the largest |S_aa| of elastic(), kPa
+    /// Of the whole model, in the order and base units of its description.
+    std::span<const double> parameters;
+    /// W, kPa.
+    std::span<const double> energy;
+    /// The largest |S_aa| of elastic(), kPa.
+    std::span<const double> stress;
   };
   /// What the model writes, n numbers each.
   struct Factors {
-    std::span<double> eta;           ///< η
-    std::span<double> by_energy;     ///< ∂η/∂W, 1/kPa
-    std::span<double> by_largest;    ///< ∂η/∂Wmax, 1/kPa
-    std::span<std::size_t> largest;  ///< the row whose energy is Wmax; n = none yet
-    std::span<double> by_own;  ///< ∂η/∂p of the k-th parameter after those of elastic() at [k·n + i]; may be empty
+    /// η.
+    std::span<double> eta;
+    /// ∂η/∂W, 1/kPa.
+    std::span<double> by_energy;
+    /// ∂η/∂Wmax, 1/kPa.
+    std::span<double> by_largest;
+    /// The row whose energy is Wmax; n = none yet.
+    std::span<std::size_t> largest;
+    /// ∂η/∂p of the k-th parameter after those of elastic() at [k·n + i]; empty = not wanted.
+    std::span<double> by_own;
   };
   /// Writes the factors of all rows, also of none; false if the model has any other memory.
   virtual bool scale_path(const ScaledPath& path, const Factors& factors) const = 0;

@@ -2,6 +2,7 @@
 #include "importing/columns.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -295,6 +296,24 @@ std::vector<ColumnGuess> guess_columns(const data::Csv& csv) {
   }
   number_axes(guesses);
   return guesses;
+}
+
+std::string observable_titled(const std::string& title, const std::vector<Observable>& observables) {
+  const auto plain = [](std::string text) {
+    std::erase_if(text, [](char c) { return c == ' ' || c == '_' || c == '-'; });
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  const std::string titled = plain(folded(title));
+  const auto named = [&](auto&& fits) {
+    const auto found = std::ranges::find_if(observables, fits);
+    return found == observables.end() ? std::string() : found->name;
+  };
+  if (const auto name = named([&](const Observable& one) { return plain(one.name) == titled; }); !name.empty())
+    return name;
+  const auto* const known = std::ranges::find_if(known_titles, [&](const auto& one) { return titled == one.first; });
+  if (known == std::end(known_titles)) return {};
+  return named([&](const Observable& one) { return one.name == known->second; });
 }
 
 bool counts_cycles(const ColumnGuess& column) {

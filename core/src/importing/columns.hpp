@@ -7,6 +7,7 @@
 
 #include "data/csv.hpp"
 #include "tunica/plugin.hpp"
+#include "tunica/test.hpp"
 
 /// Guesses of the columns in a machine's file, from their names, units and values.
 namespace tunica::importing {
@@ -44,6 +45,9 @@ struct ColumnGuess {
 
 /// One guess a column of the table.
 std::vector<ColumnGuess> guess_columns(const data::Csv& csv);
+
+/// The observable that a title names: "Storage modulus", or "E'"; empty = none.
+std::string observable_titled(const std::string& title, const std::vector<Observable>& observables);
 
 /// A column whose name says cycle, and whose cells hold numbers: "2", or "2-Stretch".
 bool counts_cycles(const ColumnGuess& column);

@@ -2,7 +2,6 @@
 #include "importing/mapping.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include <fmt/format.h>
@@ -118,25 +117,10 @@ class Mapper {
     return measure == "true" ? "true_strain" : measure == "green" ? "green_strain" : "strain";
   }
 
-  /// The observable that a column of no known quantity is titled as: "Storage modulus", or "E'".
-  std::string titled(const ColumnGuess& column) const {
-    const auto plain = [](std::string text) {
-      std::erase_if(text, [](char c) { return c == ' ' || c == '_' || c == '-'; });
-      std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-      return text;
-    };
-    const std::string title = plain(folded(column.title));
-    for (const Observable& observable : factory_.observables)
-      if (plain(observable.name) == title) return observable.name;
-    for (const auto& [known, name] : known_titles)
-      if (title == known && quantity(name)) return name;
-    return {};
-  }
-
   /// The observable of this test, or the quantity that yields it, for a guessed column.
   std::string name_for(const ColumnGuess& column) const {
     const std::string word = word_of(column);
-    if (word.empty()) return titled(column);
+    if (word.empty()) return observable_titled(column.title, factory_.observables);
     if (column.set_point && !prescribed(column)) return {};
     for (const std::string& name :
          {column.direction.empty() ? word : word + "_" + column.direction, word, "axial_" + word})
