@@ -191,6 +191,15 @@ experiment, said = imported(late, "--test", "loading_segments", "--area", "6 mm2
 assert experiment["tests"]["late"]["segments"] == [{"ramp": {"stretch": 1}, "duration": "12.3 s"}, {"ramp": {"stretch": 1.3}, "duration": 0}, {"hold": "600 s"}], experiment
 assert "the clock begins before the first row, at 12.3 s" in words(said), said
 rig.tunica(program, "check", folder / "late.json")
+# Where columns say the loading, the way to a first row under load is assumed, and said.
+for begins, expected in ((0, False), (12.3, True)):
+    table("jump.csv", ["t [s],stretch,P [kPa]"] + [f"{begins + 5 * k},1.3,{20 - k}" for k in range(5)])
+    (folder / "jump.json").write_text(json.dumps({
+        "format": 1, "models": {"soft": {"type": "neo_hooke", "mechanisms": [{"type": "viscoelasticity"}]}},
+        "tests": {"jump": {"type": "uniaxial", "direction": "axial", "data": {"file": "jump.csv", "columns": {"time": "t", "stretch": "stretch", "stress": "P"}, "stress_measure": "first_piola_kirchhoff"}}},
+        "optimizers": {"lm": {"type": "ceres_lm"}}, "runs": [{"model": "soft", "optimizer": "lm"}]}))
+    printed, said = rig.tunica(program, "check", folder / "jump.json")
+    assert ("'jump', at a stretch of 1.3 after 12.3 s" in words(printed + said)) == expected, printed + said
 _, said = imported(held, "--area", "6 mm2", code=2)
 assert "--test loading_segments --set segments=STRETCH" in said, said
 # Oscillations, under the names of the quantities and under their letters.

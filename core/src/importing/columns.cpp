@@ -305,15 +305,13 @@ std::string observable_titled(const std::string& title, const std::vector<Observ
     return text;
   };
   const std::string titled = plain(folded(title));
-  const auto named = [&](auto&& fits) {
-    const auto found = std::ranges::find_if(observables, fits);
-    return found == observables.end() ? std::string() : found->name;
-  };
-  if (const auto name = named([&](const Observable& one) { return plain(one.name) == titled; }); !name.empty())
-    return name;
-  const auto* const known = std::ranges::find_if(known_titles, [&](const auto& one) { return titled == one.first; });
-  if (known == std::end(known_titles)) return {};
-  return named([&](const Observable& one) { return one.name == known->second; });
+  const auto known = std::ranges::find_if(known_titles, [&](const auto& one) { return titled == one.first; });
+  const std::string other = known == std::end(known_titles) ? "" : known->second;
+  // What a test can do without may need an option that nobody has given, as a temperature does.
+  const auto found = std::ranges::find_if(observables, [&](const Observable& one) {
+    return (one.required || one.role == Observable::Role::channel) && (plain(one.name) == titled || one.name == other);
+  });
+  return found == observables.end() ? "" : found->name;
 }
 
 bool counts_cycles(const ColumnGuess& column) {

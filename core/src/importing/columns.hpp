@@ -46,7 +46,7 @@ struct ColumnGuess {
 /// One guess a column of the table.
 std::vector<ColumnGuess> guess_columns(const data::Csv& csv);
 
-/// The observable that a title names: "Storage modulus", or "E'"; empty = none.
+/// The channel or required abscissa that a title names: "Storage modulus", or "E'"; empty = none.
 std::string observable_titled(const std::string& title, const std::vector<Observable>& observables);
 
 /// A column whose name says cycle, and whose cells hold numbers: "2", or "2-Stretch".

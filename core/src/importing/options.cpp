@@ -105,19 +105,26 @@ std::string add_hold(Json& entry, const ColumnGuess& time, const Ask& ask) {
     throw InputError(
         "--set segments: expected the stretch of a hold as a number, or a list of segments as JSON. Correct it");
   const auto lasting = [&time](double number) {
-    return time.unit.empty() ? Json(number) : Json(fmt::format("{:g} {}", number, time.unit));
+    return time.unit.empty() ? Json(number) : Json(fmt::format("{:.12g} {}", number, time.unit));
   };
-  const bool late = time.begins.size() == 2 && time.begins[0] > time.begins[1] - time.begins[0];
-  const double before = late ? time.begins[0] : 0;
+  // A first row a few steps after the jump is sampling. A clock that ran before is many steps ahead.
+  constexpr double few = 10;
+  const double first = time.begins.size() == 2 ? time.begins[0] : 0, step = first > 0 ? time.begins[1] - first : 0;
+  const bool late = first > few * step, after = !late && first > step;
+  const double before = late ? first : 0;
   Json segments =
       Json::array({{{"ramp", {{"stretch", given}}}, {"duration", 0}}, {{"hold", lasting(time.largest - before)}}});
   if (late) segments.insert(segments.begin(), Json{{"ramp", {{"stretch", 1}}}, {"duration", lasting(before)}});
   entry["segments"] = std::move(segments);
+  const std::string when = fmt::format("{:.12g}{}", first, time.unit.empty() ? "" : " " + time.unit);
+  if (after)
+    return fmt::format(
+        "the first row is at {}, and the stretch is taken to jump at time 0. Say \"segments\" where it did not", when);
   if (!late) return {};
   return fmt::format(
-      "the clock begins before the first row, at {:g}{}: the specimen is taken to rest until then, and to be stretched "
-      "at once. Say \"segments\" where it was not so",
-      before, time.unit.empty() ? "" : " " + time.unit);
+      "the clock begins before the first row, at {}: the specimen is taken to rest until then, and to be stretched at "
+      "once. Say \"segments\" where it was not so",
+      when);
 }
 
 }  // namespace tunica::importing

@@ -27,8 +27,8 @@ void add_tube_options(Json& entry, const TestFactory& factory, const Answers& an
                       const Ask& ask);
 
 /// The loading of a record of time alone: held at one stretch from its beginning to its end. Where the clock has begun
-/// before, more than a step between rows, the specimen rests until the first row, and a sentence says so; empty = it
-/// has not. The stretch is asked, unless "segments" are given; a number there is the stretch.
+/// ten steps between rows before or more, the specimen rests until the first row. A sentence says what is assumed;
+/// empty = nothing is. The stretch is asked, unless "segments" are given; a number there is the stretch.
 std::string add_hold(Json& entry, const ColumnGuess& time, const Ask& ask);
 
 }  // namespace tunica::importing
