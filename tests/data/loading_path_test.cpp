@@ -38,6 +38,7 @@ TEST(LoadingPath, BeginsUnderLoadWhereTheClockRanBefore) {
   EXPECT_EQ(found->abscissa, "stretch");
   EXPECT_EQ(found->value, 1.4);
   EXPECT_EQ(found->time, 120);
+  EXPECT_FALSE(start("stretch,stress [kPa],time [s]\n1.4,9,1\n1.4,8,3\n1.4,7,9\n")) << "a first sample";
   EXPECT_FALSE(start("stretch,stress [kPa],time [s]\n1.4,9,0\n1.4,8,3\n1.4,7,9\n")) << "a jump";
   EXPECT_FALSE(start("stretch,stress [kPa],time [s]\n1.01,1,2\n1.4,9,3\n1.4,8,9\n")) << "hardly loaded";
   EXPECT_FALSE(loaded_start_of(read_strip("stretch,stress [kPa]\n1.4,9\n1.4,8\n", {}), strip_observables()))

@@ -72,21 +72,22 @@ std::string words_of(const std::vector<TestPast>& pasts) {
   return words;
 }
 
-std::vector<std::string> ramp_words(const experiment::Experiment& experiment, const experiment::RunEntry& run,
-                                    const plugins::Catalogue& catalogue, bool any) {
-  std::vector<std::string> words;
+std::string ramp_words(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+                       const plugins::Catalogue& catalogue, bool sought) {
+  std::vector<std::string> starts;
   for (const std::string& name : run.tests) {
     const experiment::TestEntry& entry = experiment.test(name);
+    if (!sought && !has_memory(experiment, entry, run, catalogue)) continue;
     const auto& observables = catalogue.tests().find(entry.type)->second.factory.observables;
-    const auto start = data::loaded_start_of(data::read_dataset(entry.data, observables), observables);
-    if (!start || !(any || has_memory(experiment, entry, run, catalogue))) continue;
-    words.push_back(
-        fmt::format("something in the model has memory, and '{}' begins under load, at {} = {:.4g} after {:.4g} s: a "
-                    "straight ramp from rest at time 0 is assumed before. Where the load came at once, let the clock "
-                    "begin there, so that the first row is at time 0. Where it came otherwise, record the loading too",
-                    name, start->abscissa, start->value, start->time));
+    if (const auto start = data::loaded_start_of(data::read_dataset(entry.data, observables), observables))
+      starts.push_back(
+          fmt::format("'{}', at a {} of {:.4g} after {:.4g} s", name, start->abscissa, start->value, start->time));
   }
-  return words;
+  if (starts.empty()) return {};
+  return fmt::format(
+      "{}, and these tests begin under load: {}. A straight ramp from rest at time 0 is assumed before. Where the load "
+      "came at once, let the clock begin there, so that the first row is at time 0; else record the loading too",
+      sought ? "memory is looked for" : "something in the model has memory", text::joined(starts));
 }
 
 std::string assumption_words(const std::vector<TestPast>& pasts) {

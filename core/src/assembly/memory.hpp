@@ -36,10 +36,10 @@ bool has_memory(const experiment::Experiment& experiment, const experiment::Test
 /// column", of all these tests.
 std::string words_of(const std::vector<TestPast>& pasts);
 
-/// A sentence for each test of the run with memory whose first row is under load at a time after 0: the ramp that is
-/// assumed, and what to do where the load came otherwise. `any`: whatever the model, as something with memory is asked.
-std::vector<std::string> ramp_words(const experiment::Experiment& experiment, const experiment::RunEntry& run,
-                                    const plugins::Catalogue& catalogue, bool any = false);
+/// One sentence on tests with memory that begin under load where the clock has run before: which ramp is assumed, and
+/// what to do where the load came otherwise. `sought`: whatever the model, as memory is looked for. Empty for no tests.
+std::string ramp_words(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+                       const plugins::Catalogue& catalogue, bool sought = false);
 
 /// One sentence on the assumed history of tests with memory; empty for no tests.
 std::string assumption_words(const std::vector<TestPast>& pasts);

@@ -88,13 +88,16 @@ Past past_of(const Dataset& dataset, const std::vector<Observable>& observables)
 }
 
 std::optional<LoadedStart> loaded_start_of(const Dataset& dataset, const std::vector<Observable>& observables) {
-  if (dataset.time.empty() || !(dataset.time.front() > 0)) return std::nullopt;
+  const std::vector<double>& time = dataset.time;
+  if (time.size() < 2 || !(time.front() > time[1] - time.front())) return std::nullopt;
+  std::optional<LoadedStart> found;
   for (const auto& [name, path] : dataset.abscissae) {
     const Observable* const observable = observable_of(name, observables);
-    if (observable != nullptr && !path.empty() && starts_far(distances(path, rest_of(*observable))))
-      return LoadedStart{name, path.front(), dataset.time.front()};
+    if (observable == nullptr || observable->kind == Observable::Kind::plain || path.empty()) continue;
+    if (!starts_far(distances(path, rest_of(*observable)))) return std::nullopt;
+    if (!found) found = LoadedStart{name, path.front(), time.front()};
   }
-  return std::nullopt;
+  return found;
 }
 
 void sort_rows(Dataset& dataset) {

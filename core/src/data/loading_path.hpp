@@ -28,8 +28,9 @@ struct LoadedStart {
   double value, time;    ///< of the first row, in base units
 };
 
-/// Where a clock is read, and the first row lies farther from rest than half of the largest distance, after time 0.
-/// Models with memory take a straight ramp from rest at time 0 for what came before, and nothing in the rows tells.
+/// Where every stretch and stress that is prescribed begins farther from rest than half of its largest distance, and
+/// the clock has run for more than a step between rows. Models with memory take a straight ramp from rest at time 0 for
+/// what came before, and nothing in the rows tells.
 std::optional<LoadedStart> loaded_start_of(const Dataset& dataset, const std::vector<Observable>& observables);
 
 /// Rows in an order that is theirs whatever the order in the file: by their abscissae, those with few different values

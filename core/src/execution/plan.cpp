@@ -152,7 +152,7 @@ void warn_of_assumed_orders(const experiment::Experiment& experiment, const Plan
       assumed.push_back(one);
       warning.subjects.push_back(one.test);
     }
-  for (std::string& words : assembly::ramp_words(experiment, *run.entry, catalogue))
+  if (std::string words = assembly::ramp_words(experiment, *run.entry, catalogue); !words.empty())
     warnings.push_back({WarningKind::order_assumed, std::move(words), run.label});
   if (assumed.empty()) return;
   warning.sentence = assembly::assumption_words(assumed);

@@ -108,7 +108,8 @@ Ordered with_orders(const Inquiry& inquiry, experiment::Experiment experiment, c
   }
   std::vector<Warning> warnings;
   if (!assumed.empty()) warnings.push_back({WarningKind::order_assumed, assembly::assumption_words(assumed)});
-  for (std::string& words : assembly::ramp_words(experiment, run, inquiry.catalogue, asked))
+  const bool sought = asked || (inquiry.request.mechanisms.empty() && inquiry.request.considers("material"));
+  if (std::string words = assembly::ramp_words(experiment, run, inquiry.catalogue, sought); !words.empty())
     warnings.push_back({WarningKind::order_assumed, std::move(words)});
   return {std::move(experiment), std::move(warnings)};
 }
