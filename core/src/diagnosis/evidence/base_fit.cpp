@@ -167,7 +167,8 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
   const auto is_open = [&](const std::vector<Fit>& ended) {
     const auto there = std::ranges::count_if(
         ended, [&](const Fit& fit) { return fit.status.ok() && fit.chi2 <= (1 + far) * base.fit.chi2 + same; });
-    const bool few = there < 2 || 3 * static_cast<std::size_t>(there) < ended.size();
+    const auto fitted = std::ranges::count_if(ended, [](const Fit& fit) { return fit.status.ok(); });
+    const bool few = there < 2 || 3 * there < fitted;
     const bool doubtful = ended.size() == starts.size() && base.fit.chi2 > noise_alone;
     return !assembly.layout().has_costly_tests && (few || doubtful);
   };
