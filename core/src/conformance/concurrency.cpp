@@ -5,6 +5,7 @@
 #include <atomic>
 #include <barrier>
 #include <cerrno>
+#include <chrono>
 #include <exception>
 #include <mutex>
 #include <numeric>
@@ -100,6 +101,8 @@ Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agr
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
   };
   const double enough = worked() + seconds * std::max(1u, std::thread::hardware_concurrency());
+  // Threads that wait, for a lock or for another program, hardly work.
+  const auto latest = std::chrono::steady_clock::now() + std::chrono::duration<double>(20 * seconds);
   std::barrier begin(static_cast<std::ptrdiff_t>(threads));
   const auto run = [&](std::size_t thread) {
     std::vector<std::size_t> order(count);
@@ -120,7 +123,7 @@ Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agr
           race.input = input;
           return;
         }
-      } while (worked() < enough);
+      } while (worked() < enough && std::chrono::steady_clock::now() < latest);
       Interruptions::stop();  // the last ones are not kept from their end
     } catch (...) {
       const std::lock_guard lock(guard);
