@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tunica/detail/solve_strip.hpp"
@@ -92,12 +93,17 @@ Status scale_elastic(const Strip& strip, const TestInput& input, std::span<const
   if (Status status = evaluate_energies(strip, elastic, path.parameters, stretch, rows.u, parameters, m); !status.ok())
     return status;
   if (m.largest.size() < n) m.largest.resize(n);
-  model.scale_path({input.model_parameters, {m.work.data(), n}, {m.stress.data(), n}},
-                   {room(m.eta, n),
-                    room(m.by_energy, n),
-                    room(m.by_largest, n),
-                    {m.largest.data(), n},
-                    room(m.by_own, parameters ? n * own : 0)});
+  const EnergyScaledModel::Factors factors{room(m.eta, n),
+                                           room(m.by_energy, n),
+                                           room(m.by_largest, n),
+                                           {m.largest.data(), n},
+                                           room(m.by_own, parameters ? n * own : 0)};
+  // What a plugin leaves unwritten is no number.
+  std::fill(factors.eta.begin(), factors.eta.end(), std::numeric_limits<double>::quiet_NaN());
+  std::fill(factors.largest.begin(), factors.largest.end(), n);
+  if (!model.scale_path({input.model_parameters, {m.work.data(), n}, {m.stress.data(), n}}, factors) ||
+      std::any_of(factors.largest.begin(), factors.largest.end(), [n](std::size_t row) { return row > n; }))
+    return Status::failed("uniaxial: the model does not say by what factors its elastic stress is multiplied");
   if (parameters) add_derivatives(n, count, own, rows.stress_dp, rows.stress.data(), m);
   if (!rows.y_dp.empty()) std::fill(rows.y_dp.begin() + static_cast<std::ptrdiff_t>(derivatives), rows.y_dp.end(), 0.0);
   for (std::size_t i = 0; i < n; ++i) rows.stress[i] *= m.eta[i];
