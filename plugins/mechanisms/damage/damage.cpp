@@ -71,15 +71,15 @@ class DamagedModel final : public ScaledByEnergy {
         left = std::exp(-x);
         eta = 1 + law.d * std::expm1(-x);
       }
-      const double by_x = -law.d * left;
+      const double by_x = -law.d * left, moved = left == 0 ? 0 : by_x * x;  // all is lost, however large x is
       out.largest[i] = row;
       out.eta[i] = eta;
       out.by_energy[i] = 0;
-      out.by_largest[i] = row == n ? 0 : by_x * law.m * x / largest;
+      out.by_largest[i] = row == n ? 0 : law.m * moved / largest;
       if (out.by_own.empty()) continue;
       out.by_own[i] = std::expm1(-x);
-      out.by_own[n + i] = -by_x * x * law.m / law.w;
-      if (own.size() > 2) out.by_own[2 * n + i] = x == 0 ? 0 : by_x * x * std::log(largest / law.w);
+      out.by_own[n + i] = -moved * law.m / law.w;
+      if (own.size() > 2) out.by_own[2 * n + i] = moved == 0 ? 0 : moved * std::log(largest / law.w);
     }
   }
 
