@@ -22,7 +22,7 @@ const more = [
 ];
 
 /** "10,5 mm" is 10.5 mm; "1,500 mm" may be 1.5 or 1500, and is left for the core to refuse. */
-const pointed = (text) => text.replace(/^(-?\d+),(\d{1,2}|\d{4,})(?=\D|$)/, "$1.$2");
+const pointed = (text) => text.replace(/^(-?\d+),(\d{1,2}|\d{4,})(?=\D|$)|^(-?0),(\d+)/, (all, a, b, c, d) => `${a ?? c}.${b ?? d}`);
 
 export async function dataPage(place, all, name) {
   const files = name.split("\n"), catalogue = await ask("catalogue");
