@@ -90,7 +90,7 @@ TEST(WrongTest, ThatSaysItCarriesEveryVolumeAndDoesNotIsNamed) {
             "the test says that it carries materials of any volume, and of this one: half_strip: its volume changes");
 }
 
-/// None of 500 checks missed it on one processor, nor on two: a chance below 0.6 %, see docs/plugin-check.md.
+/// None of 468 checks of a second missed it, on one processor or two, idle or not; see docs/plugin-check.md.
 TEST(WrongModel, ThatIsNotThreadSafeIsNamed) { EXPECT_EQ(failed("unsafe_scratch"), Names{"concurrent_calls_agree"}); }
 
 TEST(WrongModel, ThatCrashesIsAFindingAndTheOtherPropertiesAreChecked) {
