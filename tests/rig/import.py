@@ -210,6 +210,9 @@ for titles in ("Frequenz [Hz],E' [kPa],E'' [kPa]", "Frequency [Hz],Storage modul
     rig.tunica(program, "check", folder / "sweep.json")
 _, said = imported(sweep, code=2)
 assert "--test dynamic_mechanical" in said, said
+# Moduli of shear are not taken for those of tension, which the test assumes.
+_, said = imported(table("shear.csv", ["Frequency [Hz],G' [kPa],G'' [kPa]", "0.1,90,9", "1,100,12"]), "--test", "dynamic_mechanical", code=2)
+assert "no column is known to be measured" in said and "'G''" in said, said
 creep = table("creep.csv", ["Time [s],Load [N],Extension [mm]", "0,1,0.5", "10,1,0.8", "100,1,1.1"])
 experiment, said = imported(creep, "--test", "creep", "--area", "6 mm2", "--gauge-length", "20 mm")
 assert experiment["tests"]["creep"]["data"]["columns"] == {"time": "Time", "force": "Load", "displacement": "Extension"}, experiment

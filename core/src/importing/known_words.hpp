@@ -102,10 +102,9 @@ inline constexpr Word known_words[] = {{"pressure", "pressure", "kPa"},
 /// Titles of columns in the tables of oscillations, without case and blanks, and the observable that they are. Not G'
 /// and G'': they are of shear, which the test has to be told.
 inline constexpr std::pair<const char*, const char*> known_titles[] = {
-    {"e'", "storage_modulus"},        {"g'", "storage_modulus"},      {"speichermodul", "storage_modulus"},
-    {"e''", "loss_modulus"},          {"g''", "loss_modulus"},        {"e\"", "loss_modulus"},
-    {"verlustmodul", "loss_modulus"}, {"tandelta", "loss_tangent"},   {"tan(delta)", "loss_tangent"},
-    {"tanδ", "loss_tangent"},         {"lossfactor", "loss_tangent"}, {"verlustfaktor", "loss_tangent"},
+    {"e'", "storage_modulus"},      {"speichermodul", "storage_modulus"}, {"e''", "loss_modulus"},
+    {"e\"", "loss_modulus"},        {"verlustmodul", "loss_modulus"},     {"tandelta", "loss_tangent"},
+    {"tan(delta)", "loss_tangent"}, {"lossfactor", "loss_tangent"},       {"verlustfaktor", "loss_tangent"},
     {"frequenz", "frequency"}};
 
 /// What no test takes, by a word of its name.
