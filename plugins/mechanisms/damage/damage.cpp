@@ -39,7 +39,8 @@ struct Law {
   [[nodiscard]] double eta(double largest) const { return 1 + d * std::expm1(-x(largest)); }
   /// dη/dWmax = −d e^{−x} m x/Wmax
   [[nodiscard]] double slope(double largest) const {
-    return largest > 0 ? -d * std::exp(-x(largest)) * m * x(largest) / largest : 0;
+    const double left = std::exp(-x(largest));
+    return largest > 0 && left != 0 ? -d * left * m * x(largest) / largest : 0;
   }
 };
 
@@ -71,7 +72,7 @@ class DamagedModel final : public ScaledByEnergy {
         left = std::exp(-x);
         eta = 1 + law.d * std::expm1(-x);
       }
-      const double by_x = -law.d * left, moved = left == 0 ? 0 : by_x * x;  // all is lost, however large x is
+      const double moved = left == 0 ? 0 : -law.d * left * x;  // all is lost, however large x is
       out.largest[i] = row;
       out.eta[i] = eta;
       out.by_energy[i] = 0;
@@ -97,7 +98,7 @@ class DamagedModel final : public ScaledByEnergy {
       for (std::size_t k = 0; k < n; ++k) largest[k] = step.energy[k] - at_rest[k];
     const Law law(step.parameters);
     const double x = law.x(largest[0]), eta = law.eta(largest[0]), slope = law.slope(largest[0]);
-    const double by_x = -law.d * std::exp(-x);
+    const double left = std::exp(-x), moved = left == 0 ? 0 : -law.d * left * x;
     for (std::size_t a = 0; a < 3; ++a) {
       double* const g = step.gradient + a * n;
       const double bare = g[0];
@@ -106,8 +107,8 @@ class DamagedModel final : public ScaledByEnergy {
       if (step.parameter_place == 0 || x == 0) continue;
       double* const own = g + step.parameter_place;
       own[0] += std::expm1(-x) * bare;
-      own[1] -= by_x * x * law.m / law.w * bare;
-      if (step.parameters.size() > 2) own[2] += by_x * x * std::log(largest[0] / law.w) * bare;
+      own[1] -= moved * law.m / law.w * bare;
+      if (step.parameters.size() > 2 && moved != 0) own[2] += moved * std::log(largest[0] / law.w) * bare;
     }
   }
 };
