@@ -16,10 +16,10 @@ struct Race {
 };
 
 /// Threads that go through the inputs 0 … count − 1 over and over, each in an order of its own, until one of
-/// `agrees(input)` is false, but for at least a round each and `seconds` of every processor, and at
-/// most for twenty times as long. There are more threads
-/// than processors. An alarm puts one of them to sleep every 70 µs, wherever it is, until others have made calls. So
-/// calls are interleaved on one processor too, and on a busy one. What a call throws is thrown here.
+/// `agrees(input)` is false, but for at least a round each and `seconds` of every processor, and at most for twenty
+/// times as long. There are more threads than processors. An alarm puts one of them to sleep every 70 µs, wherever it
+/// is, until others have made calls. So calls are interleaved on one processor too, and on a busy one. What a call
+/// throws is thrown here.
 Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agrees, double seconds = 0.6);
 
 }  // namespace tunica::conformance
