@@ -229,7 +229,8 @@ TEST(BaseFitKept, IsTheBestThatCouldBeEvaluated) {
 
 /// Ten flat valleys, whose |r|² are 1.5 apart: a poorer one is as small as noise, and its misfit would look like a
 /// cause.
-TEST(BaseFitKept, IsReachedByTwoStartsAmongNoiseToo) {
+TEST(BaseFitKept, IsReachedByAThirdOfTheStartsAmongNoiseToo) {
+  constexpr std::ptrdiff_t all = 9 + 4 * 12;  // starts of a search that has not ended before
   const auto depth = [](double a) { return std::sqrt(0.01 + 0.75 * ((7 * static_cast<int>(a / 10) + 3) % 10)); };
   BaseFitBed bed([&](double a) { return StressAt{depth(a), 0}; }, 99.9);
   for (bed.request.seed = 1; bed.request.seed <= 20; ++bed.request.seed) {
@@ -237,7 +238,9 @@ TEST(BaseFitKept, IsReachedByTwoStartsAmongNoiseToo) {
     std::ranges::sort(bed.asked);
     const auto twice = std::ranges::unique(bed.asked);
     bed.asked.erase(twice.begin(), twice.end());
-    EXPECT_GE(std::ranges::count_if(bed.asked, [&](double a) { return depth(a) == best; }), 2) << bed.request.seed;
+    const auto there = std::ranges::count_if(bed.asked, [&](double a) { return depth(a) == best; });
+    EXPECT_GE(there, 2) << bed.request.seed;
+    EXPECT_TRUE(3 * there >= std::ssize(bed.asked) || std::ssize(bed.asked) >= all) << bed.request.seed;
   }
 }
 
